@@ -1,0 +1,56 @@
+"""Validation shared by the analytic solutions: one message format, NaN never passes."""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+def require(condition: bool, name: str, value: object, allowed: str) -> None:
+    """Raise ValueError naming the parameter, its value and what is allowed, unless `condition` holds."""
+    if not condition:
+        raise ValueError(f"{name} = {value!r} is not allowed: {name} must be {allowed}")
+
+
+def positive(solution: object, *names: str) -> None:
+    """Require the named attributes to be finite and greater than zero."""
+    for name in names:
+        value = getattr(solution, name)
+        require(math.isfinite(value) and value > 0.0, name, value, "finite and greater than 0")
+
+
+def not_negative(solution: object, *names: str) -> None:
+    """Require the named attributes to be finite and at least zero."""
+    for name in names:
+        value = getattr(solution, name)
+        require(math.isfinite(value) and value >= 0.0, name, value, "finite and at least 0")
+
+
+def between(solution: object, name: str, low: float, high: float) -> None:
+    """Require low < attribute < high."""
+    value = getattr(solution, name)
+    require(low < value < high, name, value, f"between {low:g} and {high:g}, both excluded")
+
+
+def length_allowed(solution: object) -> None:
+    """Require a positive column length; infinite stands for a half-space."""
+    length = getattr(solution, "length")
+    require(length > 0.0, "length", length, "greater than 0 (infinite for a half-space)")
+
+
+def times(t: ArrayLike, end: float = math.inf, reason: str = "") -> Array:
+    """Times as an array, all in [0, end]; `reason` says why the solution ends there."""
+    array = np.asarray(t, dtype=float)
+    allowed = f"within [0, {end:.9g}] s" + (f" ({reason})" if reason else "")
+    require(bool(np.all((array >= 0.0) & (array <= end))), "t", t, allowed)
+    return array
+
+
+def coordinates(coordinate: ArrayLike, length: float) -> Array:
+    """Lagrangian coordinates as an array, all in [0, length]."""
+    array = np.asarray(coordinate, dtype=float)
+    inside = bool(np.all((array >= 0.0) & (array <= length)))
+    require(inside, "coordinate", coordinate, f"within [0, {length:.9g}] m")
+    return array
