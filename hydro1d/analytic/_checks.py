@@ -34,9 +34,8 @@ def between(solution: object, name: str, low: float, high: float) -> None:
     require(low < value < high, name, value, f"between {low:g} and {high:g}, both excluded")
 
 
-def length_allowed(solution: object) -> None:
+def length_allowed(length: float) -> None:
     """Require a positive column length; infinite stands for a half-space."""
-    length = getattr(solution, "length")
     require(length > 0.0, "length", length, "greater than 0 (infinite for a half-space)")
 
 

@@ -8,6 +8,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -79,8 +80,11 @@ class Curve(ABC):
     def area(self, strain: float) -> float:
         """Area under the curve from zero to `strain`, J/m^3: the quasi-static energy absorption."""
         marks = [0.0, *[corner for corner in self.corners if corner < strain], strain]
-        pieces = zip(marks[:-1], marks[1:], strict=True)
-        return sum(quad(self.stress, low, high, epsabs=0.0, epsrel=1e-12)[0] for low, high in pieces)
+        pieces = [quad(self._stress_at, *ends, epsabs=0.0, epsrel=1e-12)[0] for ends in pairwise(marks)]
+        return float(sum(pieces))
+
+    def _stress_at(self, strain: float) -> float:
+        return float(self.stress(strain))
 
 
 @dataclass(frozen=True)
@@ -95,12 +99,15 @@ class Elastic(Curve):
 
     @property
     def corners(self) -> tuple[float, ...]:
+        """Strains between which the curve is concave-up."""
         return ()
 
     def stress(self, strain: ArrayLike) -> Array:
+        """Stress, Pa, shape of `strain`."""
         return self.modulus * np.asarray(strain, dtype=float)
 
     def tangent(self, strain: ArrayLike) -> Array:
+        """Slope of the curve, Pa, shape of `strain`."""
         return np.full_like(np.asarray(strain, dtype=float), self.modulus)
 
 
@@ -116,6 +123,7 @@ class _PlateauCurve(Curve):
 
     @property
     def corners(self) -> tuple[float, ...]:
+        """Strains between which the curve is concave-up."""
         return (self.plateau_stress / self.modulus, self.densification_strain)
 
     @abstractmethod
@@ -127,11 +135,14 @@ class _PlateauCurve(Curve):
         """Derivative of `_rise`, Pa."""
 
     def stress(self, strain: ArrayLike) -> Array:
+        """Stress, Pa, shape of `strain`."""
         strain = np.asarray(strain, dtype=float)
         crushed = np.maximum(strain, self.densification_strain)
-        return np.minimum(self.modulus * strain, self.plateau_stress) + self._rise(crushed)
+        rise = np.where(strain > self.densification_strain, self._rise(crushed), 0.0)
+        return np.minimum(self.modulus * strain, self.plateau_stress) + rise
 
     def tangent(self, strain: ArrayLike) -> Array:
+        """Slope of the curve, Pa, shape of `strain`."""
         strain = np.asarray(strain, dtype=float)
         crushed = np.maximum(strain, self.densification_strain)
         beyond = np.where(strain < self.densification_strain, 0.0, self._slope(crushed))
@@ -158,6 +169,7 @@ class EPPH(_PlateauCurve):
 
     @property
     def strain_limit(self) -> float:
+        """Largest strain at which the curve is defined."""
         return 1.0
 
     def _rise(self, strain: Array) -> Array:
@@ -169,6 +181,7 @@ class EPPH(_PlateauCurve):
         return self.density / self.shock_slope**2 * ratio * (2.0 - ratio)
 
     def strain_at(self, stress: float) -> float:
+        """The strain that carries `stress` (Pa); ValueError where there is none."""
         rise = stress - self.plateau_stress
         if rise <= 0.0:
             return stress / self.modulus
@@ -216,6 +229,7 @@ class TangentEPPH(_PlateauCurve):
         return self.plateau_stress * self.beta * rate / np.square(np.sin(self._cofactor_angle(strain)))
 
     def strain_at(self, stress: float) -> float:
+        """The strain that carries `stress` (Pa); ValueError where there is none."""
         if stress <= self.plateau_stress:
             return stress / self.modulus
         cotangent = (stress / self.plateau_stress - 1.0) / self.beta + self._offset
@@ -277,6 +291,7 @@ class EPH(Curve):
 
     @property
     def corners(self) -> tuple[float, ...]:
+        """Strains between which the curve is concave-up."""
         return (self.yield_limit / self.modulus,)
 
     @property
@@ -285,14 +300,17 @@ class EPH(Curve):
         return math.sqrt(self.hardening_modulus / self.density)
 
     def stress(self, strain: ArrayLike) -> Array:
+        """Stress, Pa, shape of `strain`."""
         strain = np.asarray(strain, dtype=float)
         plastic = np.maximum(strain - self.yield_strain, 0.0)
         return np.minimum(self.modulus * strain, self.yield_limit) + self.hardening_modulus * plastic
 
     def tangent(self, strain: ArrayLike) -> Array:
+        """Slope of the curve, Pa, shape of `strain`."""
         return np.where(np.asarray(strain) < self.yield_strain, self.modulus, self.hardening_modulus)
 
     def strain_at(self, stress: float) -> float:
+        """The strain that carries `stress` (Pa); ValueError where there is none."""
         plastic = max(stress - self.yield_limit, 0.0) / self.hardening_modulus
         strain = min(stress, self.yield_limit) / self.modulus + plastic
         require(strain < 1.0, "stress", stress, "less than the stress at strain 1")
@@ -326,6 +344,7 @@ class RPH(Curve):
 
     @property
     def corners(self) -> tuple[float, ...]:
+        """Strains between which the curve is concave-up."""
         crossings: tuple[float, ...] = self.__dict__["_corners"]
         return crossings
 
@@ -342,9 +361,11 @@ class RPH(Curve):
         return self.plateau_stress + self.hardening * strain / np.square(1.0 - strain)
 
     def stress(self, strain: ArrayLike) -> Array:
+        """Stress, Pa, shape of `strain`."""
         return np.minimum(self.modulus * np.asarray(strain, dtype=float), self._hardening_stress(strain))
 
     def tangent(self, strain: ArrayLike) -> Array:
+        """Slope of the curve, Pa, shape of `strain`."""
         strain = np.asarray(strain, dtype=float)
         plastic = (strain >= self.corners[0]) & (strain < self.corners[1])
         return np.where(plastic, self.hardening * (1.0 + strain) / (1.0 - strain) ** 3, self.modulus)
@@ -368,7 +389,7 @@ class Table(Curve):
         strains, stresses = np.asarray(self.strains), np.asarray(self.stresses)
         same = len(strains) == len(stresses) >= 2
         require(same, "stresses", self.stresses, "as many as strains, at least 2")
-        rising = bool(np.all(np.diff(strains) > 0.0)) and 0.0 < strains[0] and strains[-1] < 1.0
+        rising = bool(np.all(np.diff(strains) > 0.0)) and strains[0] > 0.0 and strains[-1] < 1.0
         require(rising, "strains", self.strains, "increasing, between 0 and 1")
         require(bool(np.all(np.diff(stresses) >= 0.0)), "stresses", self.stresses, "never falling")
         on_line = math.isclose(stresses[0], self.modulus * strains[0], rel_tol=1e-9)
@@ -376,6 +397,7 @@ class Table(Curve):
 
     @property
     def corners(self) -> tuple[float, ...]:
+        """Strains between which the curve is concave-up."""
         return tuple(self.strains)
 
     def _slopes(self) -> Array:
@@ -383,11 +405,13 @@ class Table(Curve):
         return np.concatenate([[self.modulus], lines, lines[-1:]])
 
     def stress(self, strain: ArrayLike) -> Array:
+        """Stress, Pa, shape of `strain`."""
         strain = np.asarray(strain, dtype=float)
         inside = np.interp(strain, (0.0, *self.strains), (0.0, *self.stresses))
         return inside + self._slopes()[-1] * np.maximum(strain - self.strains[-1], 0.0)
 
     def tangent(self, strain: ArrayLike) -> Array:
+        """Slope of the curve, Pa, shape of `strain`."""
         return self._slopes()[np.searchsorted(self.strains, np.asarray(strain), side="right")]
 
 
@@ -414,18 +438,22 @@ class UserCurve(Curve):
 
     @property
     def corners(self) -> tuple[float, ...]:
+        """Strains between which the curve is concave-up."""
         return (self.yield_limit / self.modulus,)
 
     @property
     def strain_limit(self) -> float:
+        """Largest strain at which the curve is defined."""
         return self.largest_strain
 
     def stress(self, strain: ArrayLike) -> Array:
+        """Stress, Pa, shape of `strain`."""
         strain = np.asarray(strain, dtype=float)
         beyond = self.plastic(np.maximum(strain, self.yield_strain))
         return np.where(strain < self.yield_strain, self.modulus * strain, beyond)
 
     def tangent(self, strain: ArrayLike) -> Array:
+        """Slope of the curve, Pa, shape of `strain`."""
         strain = np.asarray(strain, dtype=float)
         step = 1e-6 * (1.0 - strain)
         slope = (self.plastic(strain + step) - self.plastic(strain)) / step

@@ -158,10 +158,10 @@ def shocked_state(initial_density: float, ahead: State, strain: float, stress: f
     )
 
 
-def shock_jump(initial_density: float, ahead: State, behind: State, direction: int = 1, coordinate: float = 0.0) -> Jump:
+def shock_jump(initial_density: float, ahead: State, behind: State, direction: int = 1) -> Jump:
     """The front between two states, with the speed that momentum asks for (Eqs. 35 and 37)."""
     slope = (behind.stress - ahead.stress) / (behind.strain - ahead.strain)
-    return Jump(ahead, behind, initial_density, direction * float(np.sqrt(slope / initial_density)), coordinate)
+    return Jump(ahead, behind, initial_density, direction * float(np.sqrt(slope / initial_density)))
 
 
 def rest_state(initial_density: float) -> State:

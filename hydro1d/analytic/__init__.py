@@ -1,0 +1,41 @@
+"""Exact solutions to measure the solver against; imports neither solver nor laws. SI units, compression positive."""
+
+from hydro1d.analytic.curves import (
+    EPH,
+    EPPH,
+    RPH,
+    Curve,
+    Elastic,
+    Table,
+    TangentEPPH,
+    Trilinear,
+    UserCurve,
+    stiff_eppr,
+    stiff_rppl,
+)
+from hydro1d.analytic.hugoniot import Hugoniot, compaction_hugoniot
+from hydro1d.analytic.jumps import Fields, Jump, Residuals, State
+from hydro1d.analytic.step_loading import StepLoading, piston, pressure_step
+
+__all__ = [
+    "EPH",
+    "EPPH",
+    "RPH",
+    "Curve",
+    "Elastic",
+    "Fields",
+    "Hugoniot",
+    "Jump",
+    "Residuals",
+    "State",
+    "StepLoading",
+    "Table",
+    "TangentEPPH",
+    "Trilinear",
+    "UserCurve",
+    "compaction_hugoniot",
+    "piston",
+    "pressure_step",
+    "stiff_eppr",
+    "stiff_rppl",
+]
