@@ -15,17 +15,25 @@ from hydro1d.analytic.curves import (
 )
 from hydro1d.analytic.hugoniot import Hugoniot, compaction_hugoniot
 from hydro1d.analytic.jumps import Fields, Jump, Residuals, State
+from hydro1d.analytic.rppl import RPPL, FrontHistory, RPPLStriker
+from hydro1d.analytic.rppl_energy_balance import EnergyBalanceStriker
+from hydro1d.analytic.rppl_pulse import RPPLPulse
 from hydro1d.analytic.step_loading import StepLoading, piston, pressure_step
 
 __all__ = [
     "EPH",
     "EPPH",
     "RPH",
+    "RPPL",
     "Curve",
     "Elastic",
+    "EnergyBalanceStriker",
     "Fields",
+    "FrontHistory",
     "Hugoniot",
     "Jump",
+    "RPPLPulse",
+    "RPPLStriker",
     "Residuals",
     "State",
     "StepLoading",

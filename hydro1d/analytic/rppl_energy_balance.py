@@ -1,0 +1,106 @@
+"""Scheme 2, the "energy balance" for a mass on R-P-P-L: wrong, kept to show by how much.
+
+It assumes that the front absorbs no more than the quasi-static energy plateau*eD, and so does not conserve momentum.
+Source: Eqs. 14-19 of Harrigan, Reid & Seyed Yaghoubi 2010, doi:10.1016/j.ijimpeng.2009.03.011. The time follows
+from Eq. 17 by dt = du/v; with u = umax (1 - w^2) the integrand is sqrt(A - B w^2), elementary.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hydro1d.analytic._checks import Array, length_allowed, positive, times
+from hydro1d.analytic._roots import bisect
+from hydro1d.analytic.rppl import RPPL, FrontHistory
+
+
+@dataclass(frozen=True)
+class EnergyBalanceStriker:
+    """Mass against a column of R-P-P-L by Scheme 2 (Eqs. 14-19).
+
+    material; mass of the striker per area, kg/m^2; impact_velocity v0, m/s; length of the column, m.
+    Raises ValueError for times after full locking. No jumps: its front violates the momentum condition.
+    """
+
+    material: RPPL
+    mass: float
+    impact_velocity: float
+    length: float = math.inf
+
+    def __post_init__(self) -> None:
+        positive(self, "mass", "impact_velocity")
+        length_allowed(self.length)
+
+    @property
+    def critical_length(self) -> float:
+        """Length of column that is just fully crushed, m (Eq. 19)."""
+        return float(critical_length(self.material, self.mass, self.impact_velocity))
+
+    @property
+    def stop_time(self) -> float:
+        """When the striker comes to rest if the column does not lock fully before, s."""
+        return float(self._time_at(np.asarray(0.0)))
+
+    @property
+    def locking_time(self) -> float:
+        """When the front reaches the back, s; infinite if it never does."""
+        if self.length >= self.critical_length:
+            return math.inf
+        return float(self._time_at(np.asarray(math.sqrt(1.0 - self.length / self.critical_length))))
+
+    def velocity_at(self, displacement: ArrayLike) -> Array:
+        """v after a displacement u (m), m/s (Eq. 17); 0 where it never gets that far."""
+        displacement = np.asarray(displacement, dtype=float)
+        square = self.impact_velocity**2 - 2.0 * self.material.plateau_stress * displacement / self.mass
+        block = 1.0 + self.material.density * displacement / (self.mass * self.material.densification_strain)
+        return np.sqrt(np.maximum(square, 0.0) / block)
+
+    def stress_at(self, displacement: ArrayLike) -> Array:
+        """Stress behind the front after a displacement u (m), Pa (Eq. 14)."""
+        return energy_balance_stress(self.material, self.velocity_at(displacement))
+
+    def history(self, t: ArrayLike) -> FrontHistory:
+        """Displacement, velocity, front and stresses at times t (s); stresses are NaN once it is at rest.
+
+        left_stress is what decelerates the striker, by Eq. 16.
+        """
+        t = times(t, self.locking_time, "then the column is fully locked")
+        root = bisect(lambda w: self._time_at(w) < t, np.zeros(t.shape), 1.0)
+        root = np.where(t >= self.stop_time, 0.0, np.where(t == 0.0, 1.0, root))
+        front = self.critical_length * (1.0 - root) * (1.0 + root)
+        displacement = front * self.material.densification_strain
+        stress = np.where(t > self.stop_time, np.nan, self.stress_at(displacement))
+        left_stress = stress * self.mass / (self.mass + self.material.density * front)
+        return FrontHistory(displacement, self.velocity_at(displacement), front, stress, left_stress)
+
+    def _time_at(self, root: Array) -> Array:
+        """Time at which u = umax (1 - root^2)."""
+        longest = self.critical_length * self.material.densification_strain
+        b = self.material.density * self.critical_length / self.mass
+        return (
+            2.0 * longest / self.impact_velocity * (_ellipse(1.0 + b, b, np.asarray(1.0)) - _ellipse(1.0 + b, b, root))
+        )
+
+
+def _ellipse(a: float, b: float, w: Array) -> Array:
+    """Integral of sqrt(a - b w^2) from 0 to w."""
+    return 0.5 * (w * np.sqrt(a - b * w**2) + a / math.sqrt(b) * np.arcsin(w * math.sqrt(b / a)))
+
+
+def energy_balance_stress(material: RPPL, velocity: ArrayLike) -> Array:
+    """Stress that Scheme 2 puts behind the front, Pa (Eq. 14)."""
+    return material.plateau_stress + 0.5 * material.density * np.square(velocity) / material.densification_strain
+
+
+def critical_length(material: RPPL, mass: ArrayLike, impact_velocity: ArrayLike) -> Array:
+    """Length of column that a striker (kg/m^2, m/s) just fully crushes by Scheme 2, m (Eq. 19)."""
+    kinetic = 0.5 * np.asarray(mass, dtype=float) * np.square(impact_velocity)
+    return kinetic / (material.plateau_stress * material.densification_strain)
+
+
+def full_locking_velocity(material: RPPL, mass: ArrayLike, length: ArrayLike) -> Array:
+    """vD by Scheme 2, impact velocity that just locks a column of `length` (m), m/s (Eq. 18)."""
+    longest = np.asarray(length, dtype=float) * material.densification_strain
+    return np.sqrt(2.0 * longest * material.plateau_stress / np.asarray(mass, dtype=float))
