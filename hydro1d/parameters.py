@@ -57,9 +57,9 @@ def fraction(description: str = "", default: Any = ...) -> Any:
     return _parameter("1", description, default, gt=0.0, lt=1.0)
 
 
-def pairs(first: str, second: str, description: str = "") -> Any:
+def pairs(first: str, second: str, description: str = "", default: Any = ...) -> Any:
     """A table of two columns with the units ``first`` and ``second``: a list of pairs or the name of a CSV file."""
-    return Field(..., description=description, json_schema_extra={"units": [first, second]})
+    return Field(default, description=description, json_schema_extra={"units": [first, second]})
 
 
 class derived(functools.cached_property):  # noqa: N801 (reads as the decorator it is)

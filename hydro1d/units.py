@@ -226,8 +226,11 @@ def field_to_si(field: FieldInfo, value: Any, folder: Path) -> Any:
     if "unit" in extra or float in kinds:
         if isinstance(value, str) and "unit" not in extra and any(isinstance(kind, str) for kind in kinds):
             return value  # neither a declared unit nor one of its words: the field's own validator knows
+        if int in kinds and isinstance(value, int) and not isinstance(value, bool):
+            return value  # "a count, or a quantity"
         unit = str(extra.get("unit", "1"))
-        if get_origin(field.annotation) is tuple and isinstance(value, list | tuple):
+        branches = (field.annotation, *get_args(field.annotation))
+        if isinstance(value, list | tuple) and any(get_origin(branch) is tuple for branch in branches):
             return tuple(convert(item, unit) for item in value)
         return convert(value, unit)
     if bool in kinds and not isinstance(value, bool):

@@ -1,0 +1,208 @@
+"""How numba compiles the primitives, and the record types through which compiled code sees components."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import (
+    intrinsic,
+    make_attribute_wrapper,
+    models,
+    overload,
+    overload_method,
+    register_jitable,
+    register_model,
+)
+
+from hydro1d.kernels import primitives
+from hydro1d.parameters import Component, derived
+
+POINTER = types.CPointer(types.float64)
+_INTEGER, _DOUBLE = ir.IntType(64), ir.DoubleType()
+
+
+@intrinsic
+def _offset(_typing: Any, pointer: Any, start: Any) -> Any:
+    return pointer(pointer, start), lambda _context, builder, _signature, args: builder.gep(args[0], [args[1]])
+
+
+@intrinsic
+def _gather(_typing: Any, pointer: Any, start: Any, stride: Any, count: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        pointer, start, stride, _ = args
+        places = [builder.add(start, builder.mul(stride, ir.Constant(_INTEGER, k))) for k in range(len(count))]
+        values = [builder.load(builder.gep(pointer, [place])) for place in places]
+        return context.make_tuple(builder, signature.return_type, values)
+
+    return types.UniTuple(types.float64, len(count))(pointer, start, stride, count), generate
+
+
+@intrinsic
+def _scatter(_typing: Any, pointer: Any, start: Any, stride: Any, values: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        pointer, start, stride, packed = args
+        for k in range(len(values)):
+            place = builder.add(start, builder.mul(stride, ir.Constant(_INTEGER, k)))
+            builder.store(builder.extract_value(packed, k), builder.gep(pointer, [place]))
+        return context.get_dummy_value()
+
+    return types.void(pointer, start, stride, values), generate
+
+
+@intrinsic
+def _order(_typing: Any, value: Any) -> Any:
+    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        bits = builder.bitcast(args[0], _INTEGER)
+        # A NaN of either sign must come out on top.
+        positive = builder.and_(bits, ir.Constant(_INTEGER, 0x7FFFFFFFFFFFFFFF))
+        return builder.select(builder.fcmp_unordered("uno", args[0], args[0]), positive, bits)
+
+    return types.int64(types.float64), generate
+
+
+@intrinsic
+def _unorder(_typing: Any, bits: Any) -> Any:
+    return types.float64(types.int64), lambda _context, builder, _signature, args: builder.bitcast(args[0], _DOUBLE)
+
+
+@intrinsic
+def _accumulate(_typing: Any, total: Any, value: Any) -> Any:
+    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        return builder.fadd(args[0], args[1], flags=("reassoc", "contract", "nsz"))
+
+    return types.float64(types.float64, types.float64), generate
+
+
+@intrinsic
+def _call(_typing: Any, addresses: Any, which: Any, arguments: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        addresses, which, packed = args
+        values = cgutils.unpack_tuple(builder, packed, len(signature.args[2]))
+        kernel_type = ir.FunctionType(ir.VoidType(), [value.type for value in values])
+        address = builder.load(builder.gep(addresses, [which]))
+        builder.call(builder.inttoptr(address, kernel_type.as_pointer()), values)
+        return context.get_dummy_value()
+
+    return types.void(addresses, which, arguments), generate
+
+
+def _register_primitives() -> None:
+    overload(primitives.offset)(lambda pointer, start: lambda pointer, start: _offset(pointer, start))
+    overload(primitives.order)(lambda value: lambda value: _order(value))
+    overload(primitives.unorder)(lambda bits: lambda bits: _unorder(bits))
+    overload(primitives.accumulate)(lambda total, value: lambda total, value: _accumulate(total, value))
+    overload(primitives.gather)(
+        lambda pointer, start, stride, count: lambda pointer, start, stride, count: _gather(
+            pointer, start, stride, count
+        )
+    )
+    overload(primitives.scatter)(
+        lambda pointer, start, stride, values: lambda pointer, start, stride, values: _scatter(
+            pointer, start, stride, values
+        )
+    )
+    overload(primitives.call)(
+        lambda functions, which, *arguments: lambda functions, which, *arguments: _call(functions, which, arguments)
+    )
+
+
+_register_primitives()
+
+
+def record_type(component: Component, members: dict[str, Any]) -> types.Type:
+    """A numba type with the component's numeric members as attributes and its methods as methods."""
+    name = f"{type(component).__module__}.{type(component).__qualname__}"
+    record = type("Record", (types.Type,), {"__init__": lambda self: types.Type.__init__(self, name)})
+    kinds = [(key, _member_type(value)) for key, value in members.items()]
+
+    class Model(models.StructModel):
+        def __init__(self, manager: Any, kind: Any) -> None:
+            super().__init__(manager, kind, kinds)
+
+    register_model(record)(Model)
+    for key in members:
+        make_attribute_wrapper(record, key, key)
+    instance = record()
+    for key, method in methods(type(component)).items():
+        make_compilable(method)
+        overload_method(record, key)(_as_overload(method))
+    return instance
+
+
+def _member_type(value: Any) -> types.Type:
+    if isinstance(value, np.ndarray):
+        return POINTER
+    if isinstance(value, tuple):
+        return record_type(*value)
+    return types.float64
+
+
+def _as_overload(method: FunctionType) -> Callable:
+    def choose(*_args: Any, **_keywords: Any) -> FunctionType:
+        return method
+
+    # numba asks an overload for the same argument names as its implementation.
+    choose.__signature__ = inspect.signature(method)  # type: ignore[attr-defined]
+    return choose
+
+
+def methods(component: type[Component]) -> dict[str, FunctionType]:
+    """The plain methods that a component's compiled functions may call on themselves."""
+    found: dict[str, FunctionType] = {}
+    for base in reversed(component.__mro__):
+        if issubclass(base, Component) and base is not Component:
+            for key, item in vars(base).items():
+                if isinstance(item, FunctionType) and not key.startswith("_"):
+                    found[key] = item
+                elif isinstance(item, derived):
+                    found.pop(key, None)
+    return found
+
+
+def make_compilable(function: FunctionType) -> None:
+    """Let compiled code call the plain functions that ``function`` calls by name, and those that they call."""
+    for name in function.__code__.co_names:
+        callee = function.__globals__.get(name)
+        if isinstance(callee, FunctionType) and not getattr(callee, "_hydro1d_jitable", False):
+            callee._hydro1d_jitable = True  # type: ignore[attr-defined]
+            if callee.__module__ != primitives.__name__:
+                register_jitable(callee)
+            make_compilable(callee)
+
+
+def unpacker(record: types.Type, members: dict[str, Any]) -> Callable:
+    """An intrinsic that builds the record from a pointer to its parameters, laid out as `pack` lays them out."""
+
+    @intrinsic
+    def unpack(_typing: Any, parameters: Any) -> Any:
+        def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+            value, _ = _build(context, builder, record, members, args[0], 0)
+            return value
+
+        return record(parameters), generate
+
+    return unpack
+
+
+def _build(context: Any, builder: Any, record: Any, members: dict, base: Any, slot: int) -> tuple[Any, int]:
+    struct = cgutils.create_struct_proxy(record)(context, builder)
+    for key, value in members.items():
+        place = builder.gep(base, [ir.Constant(_INTEGER, slot)])
+        if isinstance(value, tuple):
+            kind = context.data_model_manager[record].get_member_fe_type(key)
+            built, slot = _build(context, builder, kind, value[1], base, slot)
+            setattr(struct, key, built)
+            continue
+        loaded = builder.load(place)
+        if isinstance(value, np.ndarray):
+            loaded = builder.gep(base, [builder.fptosi(loaded, _INTEGER)])
+        setattr(struct, key, loaded)
+        slot += 1
+    return struct._getvalue(), slot

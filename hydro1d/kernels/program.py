@@ -1,0 +1,164 @@
+"""The kernels of one column, bound to its arrays: the clean face of all that is compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from hydro1d.column import Column
+from hydro1d.kernels import build, march, records
+from hydro1d.kernels import ends as end_places
+from hydro1d.kernels import zones as zone_places
+from hydro1d.parameters import Component
+from hydro1d.state import State
+
+
+class Program:
+    """Runs the kernels of a column on a state.
+
+    Compiling happens here, on construction, so that the time of the loop is the loop's.
+    """
+
+    def __init__(self, column: Column, row_capacity: int = 4096) -> None:
+        """Compile or load what the column needs; the tables of rows hold ``row_capacity`` rows."""
+        self.column = column
+        zones = column.zones
+        components = [*(slab.law for slab in column.slabs), column.left, column.right]
+        self._components = components
+        parameters = [records.pack(component) for component in components]
+        starts = np.cumsum([0, *(len(vector) for vector in parameters)])
+        self.layers = np.zeros((len(components), march.LAYER), dtype=np.int64)
+        self.layers[:, march.PARAMETERS] = starts[:-1]
+        for row, slab in zip(self.layers, column.slabs, strict=False):
+            row[march.FIRST_ZONE], row[march.ZONES] = slab.first, slab.zones
+        self.parameters = np.concatenate(parameters)
+        self.out = np.zeros(march.OUT)
+        self.spare = np.zeros(zones + 3)
+        self.inverse_mass = 1.0 / column.node_mass
+        self.end_numbers = np.zeros((2, march.END))
+        self.columns = len(column.history_variables) - _remembered(column) + 2 * end_places.MEMORY
+        self.row_capacity = row_capacity
+        self.rows = np.zeros((row_capacity + 1, self.columns))
+        self.probe_table, self.probe_weights = _locate_probes(column)
+        self.probe_rows = np.zeros((row_capacity + 1, len(column.probes), 4))
+        self._bind()
+
+    def _bind(self) -> None:
+        slabs = self.column.slabs
+        kernels = [zone_function(slab.law) for slab in slabs] + [end_function(c) for c in self._components[-2:]]
+        if build.interpreted():
+            self._zone_functions: list[Callable] = [kernel for kernel, _ in kernels[: len(slabs)]]
+            self.addresses: Any = [kernel for kernel, _ in kernels]
+            self._march: Callable = march.march
+            return
+        self.addresses = np.array([where for _, where in kernels], dtype=np.int64)
+        self._zone_functions = [build.function(int(where), zone_places.SIGNATURE) for _, where in kernels[: len(slabs)]]
+        self._march = build.function(march_address(), march.SIGNATURE)
+
+    def advance(self, state: State, *, stop: float, steps: int, row_at_stop: bool) -> int:
+        """Step until ``stop`` (s), ``steps`` steps or full rows; returns a status of `kernels.march`."""
+        ledger = state.ledger
+        ledger[march.STOP], ledger[march.STEPS], ledger[march.CADENCE] = stop, steps, self.column.history_every
+        ledger[march.ROW_AT_STOP], ledger[march.ROWS] = row_at_stop, self.row_capacity
+        arrays = (
+            ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
+            state.velocity, self.spare, state.displacement, state.energy, state.force, state.material,
+            self.column.node_mass, self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table,
+            self.probe_weights, self.probe_rows,
+        )  # fmt: skip
+        self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
+        return int(ledger[march.STATUS])
+
+    def recorded(self, state: State) -> tuple[np.ndarray, np.ndarray]:
+        """Rows of history and probes that the last `advance` recorded, as the history shows them."""
+        count = int(state.ledger[march.ROWS])
+        rows = self.rows[:count]
+        first = self.columns - 2 * end_places.MEMORY
+        parts = [rows[:, :first]]
+        coordinates = (self.column.node_coordinate[0], self.column.node_coordinate[-1])
+        for k, (_, sign, boundary) in enumerate(self.column.ends):
+            start = first + k * end_places.MEMORY
+            memory = rows[:, start : start + len(boundary.memory)]
+            parts.append(boundary.report(memory, coordinates[k], sign) if boundary.memory else memory)
+        return np.concatenate(parts, axis=1), self.probe_rows[:count].copy()
+
+    def sweep_layer(self, state: State, layer: int, zones: int, force: np.ndarray) -> np.ndarray:
+        """Call a layer's zone kernel on the state as it stands; negative ``zones`` observes the stress into ``force``."""
+        slab = self.column.slabs[layer]
+        first = slab.first
+        arrays = (
+            self.parameters[self.layers[layer, march.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
+            state.velocity[first:], state.displacement[first:], state.energy[first:], force[first:],
+            state.material.reshape(-1)[first:],
+        )  # fmt: skip
+        out = np.zeros(march.OUT)
+        self._zone_functions[layer](*_pointers(arrays), zones, self.column.zones, *_pointers((out,)))
+        return out
+
+    def stress(self, state: State) -> np.ndarray:
+        """Stress of every zone, Pa (zones,), without viscosity."""
+        stress = np.zeros(self.column.zones)
+        for layer, slab in enumerate(self.column.slabs):
+            self.sweep_layer(state, layer, -slab.zones, stress)
+        return stress
+
+
+def _pointers(arrays: tuple) -> tuple:
+    return arrays if build.interpreted() else tuple(array.ctypes.data for array in arrays)
+
+
+def _remembered(column: Column) -> int:
+    return sum(len(boundary.memory) for _, _, boundary in column.ends)
+
+
+def _locate_probes(column: Column) -> tuple[np.ndarray, np.ndarray]:
+    """Zone and layer of each probe behind their number, and each probe's place within its zone."""
+    zones = np.clip(np.searchsorted(column.node_coordinate, column.probes, side="right") - 1, 0, column.zones - 1)
+    sizes = np.diff(column.node_coordinate)[zones]
+    weights = (column.probes - column.node_coordinate[zones]) / sizes
+    table = np.column_stack([zones, column.zone_layer[zones]]).astype(np.int64)
+    return np.concatenate([[len(zones)], table.reshape(-1)]), np.asarray(weights, dtype=float)
+
+
+def zone_function(law: Component) -> tuple[Callable, int]:
+    """The zone kernel of a law: as Python where kernels are interpreted, else its address."""
+    return _component_kernel("zones", zone_places.zone_kernel, zone_places.SIGNATURE, law, len(type(law).history))
+
+
+def end_function(boundary: Component) -> tuple[Callable, int]:
+    """The kick of a boundary, likewise."""
+    return _component_kernel("end", end_places.end_kernel, end_places.SIGNATURE, boundary, len(type(boundary).memory))
+
+
+def _component_kernel(
+    kind: str, factory: Callable, signature: str, component: Component, remembered: int
+) -> tuple[Callable, int]:
+    count = remembered * (0.0,)
+    if build.interpreted():
+        return factory(lambda _parameters: component, count), 0
+    members = records.members(component)
+    content = f"{_shape(component, members)} {remembered}"
+
+    def make() -> Callable:
+        from hydro1d.kernels import lowering
+
+        record = lowering.record_type(component, members)
+        return factory(lowering.unpacker(record, members), count)
+
+    name = f"{kind} {type(component).__module__}.{type(component).__qualname__}"
+    return march.march, build.address(name, signature, content, make)
+
+
+def _shape(component: Component, members: dict[str, Any]) -> str:
+    """What the machine code depends on of a component: its code and the kinds, not the values, of its members."""
+    kinds = [
+        f"{name}:{_shape(*value) if isinstance(value, tuple) else type(value).__name__}" for name, value in members.items()
+    ]
+    return f"{build.fingerprint(type(component))}({', '.join(kinds)})"
+
+
+def march_address() -> int:
+    """Address of the time loop, which is the same for all columns."""
+    return build.address("march", march.SIGNATURE, "", lambda: march.march)

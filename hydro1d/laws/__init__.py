@@ -1,0 +1,1 @@
+"""Constitutive laws: one a file; the file's name is the word that stands in a deck."""

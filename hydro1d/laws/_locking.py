@@ -1,0 +1,23 @@
+"""The laws whose densified branch is a straight line."""
+
+from __future__ import annotations
+
+from hydro1d.laws.base import PlateauFoam
+from hydro1d.parameters import derived
+
+
+class LinearLocking(PlateauFoam):
+    """Plateau, then σ = σP + L (ε − εD); a subclass gives `locking_slope`, the slope L."""
+
+    def hardening(self, over: float) -> tuple[float, float]:
+        """L over, and L."""
+        return self.locking_slope * over, self.locking_slope
+
+    def room(self, strain: float) -> float:
+        """Strain to densification and the little that a plateau stress adds to it: a stiff branch stops a zone at εD."""
+        return max(self.densification_strain - strain, 0.0) + self.plateau_stress / self.locking_slope
+
+    @derived
+    def locking_slope(self) -> float:
+        """Slope L of the densified branch, Pa."""
+        raise NotImplementedError

@@ -1,0 +1,173 @@
+"""What a law is, and what crushable foams share.
+
+A law is a frozen set of parameters and one point function. The point function is plain Python on floats: the solver
+compiles it, a debugger can step through it. Inside it, ``self`` offers the numeric parameters and everything marked
+`derived`; ``math`` functions and the law's own methods may be called.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+from pydantic import field_validator, model_validator
+
+from hydro1d.parameters import Component, derived, fraction, positive
+from hydro1d.units import convert
+
+RIGID = 100.0  # times the elastic modulus: the stiffest unloading that still leaves an affordable time step
+
+
+class Law(Component):
+    """Base of all laws.
+
+    `history` names the variables that a law keeps for itself, with their initial values; the largest strain so far is
+    kept by the solver for every law.
+    """
+
+    density: float = positive("kg/m^3", "initial density ρ0")
+    history: ClassVar[dict[str, float]] = {}
+
+    def point(
+        self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]
+    ) -> tuple[float, float, float, bool, tuple[float, ...]]:
+        """Answer for one material point.
+
+        Args:
+            strain: engineering strain ε = 1 − ρ0/ρ, compression positive.
+            largest: the largest strain so far, this one included.
+            rate: strain rate, 1/s.
+            energy: specific internal energy at this strain, J/kg.
+            history: the law's own variables, in the order of `history`; a tuple, hence never changed in place.
+
+        Returns:
+            stress (Pa); tangent dσ/dε of the loading curve (Pa), which scales the linear viscosity; stiffness with which
+            the point answers a small change now (Pa), which limits the time step; whether the point has never yielded
+            (the flow is smooth there but for shocks, and the viscosity is slope-limited); the new history.
+        """
+        raise NotImplementedError
+
+    def room(self, strain: float) -> float:
+        """Strain left before the material locks; the quadratic viscosity grows as its inverse (ρ/ρ0 for most laws)."""
+        return 1.0 - strain
+
+    @derived
+    def initial_energy(self) -> float:
+        """Specific internal energy at zero strain, J/kg."""
+        return 0.0
+
+    @derived
+    def crushed_strain(self) -> float:
+        """A zone is crushed when its largest strain passes this; NaN: half of the strongest strain so far in its layer."""
+        return math.inf
+
+
+class Foam(Law):
+    """A crushable foam: a loading curve, and a steep elastic line on which it unloads.
+
+    A subclass gives `loading`, the curve. Everything else (largest strain, unloading, tension cut-off, moduli) is here.
+    σ = σ_load(ε_max) − H (ε_max − ε) with H = max(unloading modulus, tangent at ε_max) once the foam has yielded, E before.
+    """
+
+    if TYPE_CHECKING:
+        modulus: float  # E, Pa; a subclass declares it as a parameter or derives it
+
+    unloading: Literal["elastic", "reversible"] = "elastic"
+    unloading_modulus: float | Literal["rigid"] | None = None
+    tension: bool = False
+
+    @field_validator("unloading_modulus", mode="before")
+    @classmethod
+    def _unloading_in_pascal(cls, value: Any) -> Any:
+        return value if value is None or value == "rigid" else convert(value, "Pa")
+
+    @model_validator(mode="after")
+    def _unloads_no_softer_than_it_loads(self) -> Foam:
+        if not self.modulus <= self.unloading_stiffness < math.inf:
+            raise ValueError(f"unloading_modulus must be 'rigid' or finite and at least the modulus, {self.modulus:g} Pa")
+        return self
+
+    def loading(self, strain: float) -> tuple[float, float]:
+        """Stress and tangent (Pa) of the first loading at ``strain``."""
+        raise NotImplementedError
+
+    def point(
+        self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]
+    ) -> tuple[float, float, float, bool, tuple[float, ...]]:
+        """Loading curve up to the largest strain, a steep line below it."""
+        top = strain if self.is_reversible > 0.0 else largest
+        stress, tangent = self.loading(top)
+        elastic = largest <= self.yield_strain
+        stiffness = self.modulus if elastic else max(self.unloading_stiffness, tangent)
+        stress = max(stress - stiffness * (top - strain), self.least_stress)
+        return stress, tangent, stiffness, elastic, history
+
+    @derived
+    def is_reversible(self) -> float:
+        """1 where the foam retraces its loading curve."""
+        return float(self.unloading == "reversible")
+
+    @derived
+    def unloading_stiffness(self) -> float:
+        """Least slope of the unloading line, Pa."""
+        if self.unloading_modulus == "rigid":
+            return RIGID * self.modulus
+        return self.modulus if self.unloading_modulus is None else float(self.unloading_modulus)
+
+    @derived
+    def least_stress(self) -> float:
+        """Zero where the foam bears no tension."""
+        return -math.inf if self.tension else 0.0
+
+    @derived
+    def yield_strain(self) -> float:
+        """Strain at which the loading curve leaves the elastic line, found by bisection."""
+        low, high = 0.0, 1.0
+
+        def is_elastic(strain: float) -> bool:
+            return abs(self.loading(strain)[0] - self.modulus * strain) <= 1e-9 * self.modulus * strain
+
+        if is_elastic(math.nextafter(1.0, 0.0)):
+            return math.inf
+        while high - low > 1e-15:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if is_elastic(middle) else (low, middle)
+        return low
+
+    @derived
+    def crushed_strain(self) -> float:
+        """The densification strain where the law has one."""
+        return float(getattr(self, "densification_strain", math.nan))
+
+
+class PlateauFoam(Foam):
+    """A foam with a plateau from yield to a densification strain; a subclass gives `hardening`, the curve beyond."""
+
+    plateau_stress: float = positive("Pa", "plateau stress σP")
+    densification_strain: float = fraction("densification strain εD")
+
+    @model_validator(mode="after")
+    def _yields_before_it_densifies(self) -> PlateauFoam:
+        if not self.yield_strain < self.densification_strain:
+            raise ValueError(
+                f"plateau_stress/modulus, the yield strain {self.yield_strain:.6g}, must be below "
+                f"densification_strain, {self.densification_strain:g}"
+            )
+        return self
+
+    def hardening(self, over: float) -> tuple[float, float]:
+        """Stress above the plateau and tangent (Pa) at the strain ``over`` ≥ 0 beyond densification."""
+        raise NotImplementedError
+
+    def loading(self, strain: float) -> tuple[float, float]:
+        """Elastic line, plateau, hardening beyond densification."""
+        over = strain - self.densification_strain
+        extra, tangent = self.hardening(max(over, 0.0))
+        stress = min(self.modulus * strain, self.plateau_stress) + (extra if over > 0.0 else 0.0)
+        elastic = self.modulus if strain <= self.yield_strain else 0.0
+        return stress, (tangent if over > 0.0 else elastic)
+
+    @derived
+    def yield_strain(self) -> float:
+        """σP/E."""
+        return self.plateau_stress / self.modulus

@@ -1,0 +1,27 @@
+"""Ideal gas, for the verification of the scheme against exact Riemann solutions."""
+
+from __future__ import annotations
+
+from hydro1d.laws.base import Law
+from hydro1d.parameters import above, derived, positive
+
+
+class IdealGas(Law):
+    """p = (γ − 1) ρ e; stress is pressure. With ρ = ρ0/(1 − ε) the Lagrangian modulus −dσ/dε is γ p ρ/ρ0."""
+
+    gamma: float = above(1.0, "1", "ratio of specific heats γ")
+    pressure: float = positive("Pa", "initial pressure")
+
+    def point(
+        self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]
+    ) -> tuple[float, float, float, bool, tuple[float, ...]]:
+        """Pressure and isentropic modulus."""
+        inverse = 1.0 / (1.0 - strain)
+        pressure = (self.gamma - 1.0) * self.density * inverse * energy
+        modulus = self.gamma * pressure * inverse
+        return pressure, modulus, modulus, True, history
+
+    @derived
+    def initial_energy(self) -> float:
+        """p/((γ − 1) ρ0), J/kg."""
+        return self.pressure / ((self.gamma - 1.0) * self.density)

@@ -1,0 +1,18 @@
+"""Elastic, plateau, linear locking."""
+
+from __future__ import annotations
+
+from hydro1d.laws._locking import LinearLocking
+from hydro1d.parameters import derived, positive
+
+
+class Trilinear(LinearLocking):
+    """Three straight lines: E ε, σP, σP + L (ε − εD)."""
+
+    modulus: float = positive("Pa", "elastic modulus E")
+    locking_modulus: float = positive("Pa", "slope L of the densified branch")
+
+    @derived
+    def locking_slope(self) -> float:
+        """The deck's locking modulus, Pa."""
+        return self.locking_modulus

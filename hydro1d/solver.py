@@ -1,0 +1,277 @@
+"""The run of a column from one output event to the next."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from hydro1d.column import Column, initial_velocities
+from hydro1d.kernels import march
+from hydro1d.kernels import zones as zone_places
+from hydro1d.kernels.ends import MEMORY
+from hydro1d.kernels.program import Program
+from hydro1d.state import State
+
+ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Profiles at one time: arrays over nodes and over zones by name."""
+
+    time: float
+    cycle: int
+    fields: dict[str, np.ndarray]
+
+
+class Sink(Protocol):
+    """Where results go."""
+
+    def profile(self, frame: Frame) -> None:
+        """Take the profiles at one time."""
+
+    def history(self, rows: np.ndarray, probes: np.ndarray) -> None:
+        """Take rows of history (rows, columns) and of probes (rows, probes, 4)."""
+
+    def checkpoint(self, state: State) -> None:
+        """Take a state to restart from; everything up to its time has been handed over."""
+
+    def maxima(self, zone_maxima: dict[str, np.ndarray]) -> None:
+        """Take what was largest in each zone over the run."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended."""
+
+    status: str
+    cycles: int
+    time: float
+    wall_seconds: float
+    message: str = ""
+    zone: int | None = None
+    state: State | None = None
+
+
+@dataclass(frozen=True)
+class CheckpointPlan:
+    """When to hand over checkpoints: every so many cycles, seconds of simulated time, or seconds of wall time."""
+
+    cycles: int | None = None
+    time: float | None = None
+    wall: float | None = None
+
+
+def initial_state(column: Column, program: Program) -> State:
+    """The column at t = 0: node velocities by the boundaries, forces, the first step, the energy to start from."""
+    zones, slabs = column.zones, column.slabs
+    variables = 1 + max(len(slab.law.history) for slab in slabs)
+    state = State(
+        ledger=np.zeros(march.LEDGER),
+        velocity=np.zeros(zones + 3),
+        displacement=np.zeros(zones + 1),
+        energy=np.zeros(zones),
+        force=np.zeros(zones),
+        material=np.zeros((variables, zones)),
+        memory=np.zeros((2, MEMORY)),
+        numbers=np.zeros((len(slabs), march.NUMBERS)),
+    )
+    linear, quadratic = column.viscosity.coefficients()
+    for slab, numbers in zip(slabs, state.numbers, strict=True):
+        density = slab.law.density
+        numbers[: zone_places.NUMBERS] = (0.0, 0.0, 1.0 / slab.size, 1.0 / density, density, linear, quadratic)
+        numbers[march.CRUSHED_STRAIN], numbers[march.SIZE] = slab.law.crushed_strain, slab.size
+        numbers[march.ZONE_MASS] = slab.size * density
+        state.energy[slab.part] = slab.law.initial_energy
+        for k, value in enumerate(slab.law.history.values()):
+            state.material[1 + k, slab.part] = value
+    velocity = initial_velocities(column)
+    for side, (_, sign, boundary) in enumerate(column.ends):
+        node = -side
+        speed, memory = boundary.start(sign * velocity[node], column.node_mass[node], sign)
+        velocity[node] = sign * speed
+        state.memory[side, : len(memory)] = memory
+    state.velocity[1:-1] = velocity
+    state.velocity[0], state.velocity[-1] = 2 * velocity[0] - velocity[1], 2 * velocity[-1] - velocity[-2]
+    _first_step(column, program, state)
+    kinetic = 0.5 * np.sum(column.node_mass * velocity**2)
+    state.ledger[march.FIRST_ENERGY] = kinetic + np.sum(column.zone_mass * state.energy)
+    return state
+
+
+def _first_step(column: Column, program: Program, state: State) -> None:
+    """Forces at t = 0 and the step that they allow; what the boundaries need to know of the zones at the ends."""
+    stable = math.inf
+    for layer, slab in enumerate(column.slabs):
+        out = program.sweep_layer(state, layer, slab.zones, state.force)
+        speed = out[zone_places.VISCOUS_SPEED]
+        stable = min(stable, slab.size / (math.sqrt(out[zone_places.STIFFNESS] + speed**2) + speed))
+        state.ledger[march.PEAK_STRESS] = max(state.ledger[march.PEAK_STRESS], out[zone_places.STRESS])
+    state.ledger[march.CFL] = column.cfl
+    state.ledger[march.NEXT_STEP] = state.ledger[march.FIRST_STEP] = column.cfl * stable
+    state.ledger[march.RIGHT_FRONT] = column.zones
+    state.ledger[march.PEAK_LEFT], state.ledger[march.PEAK_RIGHT] = state.force[0], state.force[-1]
+
+
+def set_ends(column: Column, program: Program) -> None:
+    """Impedance and initial stress that the boundaries may ask for."""
+    for side, (slab, sign) in enumerate(((column.slabs[0], 1.0), (column.slabs[-1], -1.0))):
+        law = slab.law
+        history = tuple(law.history.values())
+        stress, _, stiffness, _, _ = law.point(0.0, 0.0, 0.0, law.initial_energy, history)
+        program.end_numbers[side, 7:10] = math.sqrt(law.density * stiffness), stress, sign
+
+
+def solve(
+    column: Column,
+    sink: Sink,
+    state: State | None = None,
+    *,
+    checkpoints: CheckpointPlan | None = None,
+    progress: Callable[[State], None] | None = None,
+    program: Program | None = None,
+) -> Outcome:
+    """Run a column from its state (t = 0 unless given) to its end time, handing everything over to ``sink``."""
+    program = program or Program(column)
+    set_ends(column, program)
+    begun = state is not None
+    state = state if state is not None else initial_state(column, program)
+    run = _Run(column, sink, state, program, checkpoints or CheckpointPlan(), progress)
+    if not begun:
+        run.open()
+    return run.to_end()
+
+
+class _Run:
+    """A run under way: the events ahead, and the clock of the loop."""
+
+    def __init__(
+        self,
+        column: Column,
+        sink: Sink,
+        state: State,
+        program: Program,
+        plan: CheckpointPlan,
+        progress: Callable[[State], None] | None,
+    ) -> None:
+        self.column, self.sink, self.state, self.program = column, sink, state, program
+        self.plan, self.progress = plan, progress
+        self.loop_seconds = 0.0
+        self.saved_cycle, self.saved_time, self.saved_wall = state.cycle, state.time, time.monotonic()
+        events = {*column.profile_times.tolist(), *column.corners, column.end_time}
+        self.events = sorted(event for event in events if state.time < event <= column.end_time)
+        self.profile_times = set(column.profile_times.tolist())
+
+    def open(self) -> None:
+        """Hand over the state at t = 0."""
+        self.program.advance(self.state, stop=0.0, steps=0, row_at_stop=True)
+        self.sink.history(*self.program.recorded(self.state))
+        if 0.0 in self.profile_times:
+            self.sink.profile(frame(self.column, self.program, self.state))
+
+    def to_end(self) -> Outcome:
+        """Go from event to event."""
+        for event in self.events:
+            status = self.to_event(event)
+            if status != march.REACHED:
+                return self.broken(status)
+            if event in self.profile_times:
+                self.sink.profile(frame(self.column, self.program, self.state))
+        return self.outcome("complete")
+
+    def to_event(self, event: float) -> int:
+        """Step to an event, looking up between calls."""
+        status = march.PAUSED
+        while status == march.PAUSED:
+            begun = time.perf_counter()
+            status = self.program.advance(
+                self.state, stop=event, steps=self.steps_per_call(), row_at_stop=event == self.column.end_time
+            )
+            self.loop_seconds += time.perf_counter() - begun
+            if self.state.ledger[march.ROWS] > 0:
+                self.sink.history(*self.program.recorded(self.state))
+            if self.progress is not None:
+                self.progress(self.state)
+            self.save_if_due()
+        return status
+
+    def steps_per_call(self) -> int:
+        """So many that the user does not wait, and none beyond a checkpoint."""
+        steps = max(ZONE_STEPS_PER_CALL // self.column.zones, 1)
+        if self.plan.cycles is not None:
+            steps = min(steps, self.plan.cycles - (self.state.cycle - self.saved_cycle))
+        return steps
+
+    def save_if_due(self) -> None:
+        """Hand over a checkpoint when the plan asks for one."""
+        plan, state, now = self.plan, self.state, time.monotonic()
+        due = (
+            (plan.cycles is not None and state.cycle - self.saved_cycle >= plan.cycles)
+            or (plan.time is not None and state.time - self.saved_time >= plan.time)
+            or (plan.wall is not None and now - self.saved_wall >= plan.wall)
+        )
+        if due and state.time < self.column.end_time:
+            self.sink.checkpoint(state)
+            self.saved_cycle, self.saved_time, self.saved_wall = state.cycle, state.time, now
+
+    def outcome(self, status: str, message: str = "", zone: int | None = None) -> Outcome:
+        """Close the sink's books."""
+        self.sink.maxima({"largest_strain": self.state.material[0].copy()})
+        return Outcome(
+            status, self.state.cycle, self.state.time, self.loop_seconds, message, zone, state=self.state
+        )
+
+    def broken(self, status: int) -> Outcome:
+        """Say which zone broke down, and why."""
+        state = self.state
+        strain = -np.diff(state.displacement) / np.diff(self.column.node_coordinate)
+        self.sink.profile(frame(self.column, self.program, state))
+        if status == march.INVERTED:
+            zone = int(np.nanargmax(strain))
+            return self.outcome("failed", f"the zone is inverted: its strain reached {strain[zone]:.6g}", zone)
+        bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.energy)
+        zone = int(np.argmax(bad)) if bad.any() else int(np.argmax(np.abs(state.force)))
+        if status == march.NOT_FINITE:
+            return self.outcome("failed", "the state is not finite", zone)
+        return self.outcome("failed", f"the time step collapsed to {state.ledger[march.NEXT_STEP]:.3g} s", zone)
+
+
+def frame(column: Column, program: Program, state: State) -> Frame:
+    """Profiles of the state, all at the time of the stresses: velocities and energies half a kick on."""
+    ledger, half = state.ledger, 0.5 * state.ledger[march.LAST_STEP]
+    scratch = state.copy()
+    velocity, centred = state.velocity[1:-1].copy(), _centred(program, scratch)
+    strain = np.empty(column.zones)
+    for slab in column.slabs:
+        nodes = state.displacement[slab.first : slab.first + slab.zones + 1]
+        strain[slab.part] = (nodes[:-1] - nodes[1:]) / slab.size
+    stress = program.stress(state)
+    jump = velocity[:-1] - velocity[1:] + centred[:-1] - centred[1:]
+    fields = {
+        "position": column.node_coordinate + state.displacement,
+        "velocity": centred,
+        "displacement": state.displacement.copy(),
+        "strain": strain,
+        "stress": stress,
+        "viscosity": state.force - stress,
+        "density": np.concatenate([np.full(s.zones, s.law.density) for s in column.slabs]) / (1.0 - strain),
+        "internal_energy": state.energy + 0.5 * half * state.force * jump / column.zone_mass,
+        "largest_strain": state.material[0].copy(),
+    }
+    for name in [variable.name for variable in column.zone_history[1:]]:
+        fields[name] = np.full(column.zones, np.nan)
+        for slab in column.slabs:
+            if name in slab.law.history:
+                fields[name][slab.part] = state.material[1 + list(slab.law.history).index(name), slab.part]
+    return Frame(float(ledger[march.TIME]), state.cycle, fields)
+
+
+def _centred(program: Program, scratch: State) -> np.ndarray:
+    """Node velocities at the time of the stresses: a row recorded on a copy leaves them in the spare array."""
+    program.advance(scratch, stop=scratch.time, steps=0, row_at_stop=True)
+    return program.spare[1:-1].copy()

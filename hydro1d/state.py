@@ -1,0 +1,52 @@
+"""The state of a run: one object, whole, from which a run goes on bit for bit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from hydro1d.kernels import march
+
+
+@dataclass
+class State:
+    """All that changes with time.
+
+    ledger: clock, sums and maxima, see `kernels.march`. velocity (zones + 3,) at half a step before the next kick, with a
+    ghost at each end; displacement (zones + 1,); energy (zones,) specific; force (zones,) σ + q; material (1 + history
+    variables, zones), the largest strain first; memory (2, ·) of the boundaries; numbers (layers, ·), whose running maxima
+    count.
+    """
+
+    ledger: np.ndarray
+    velocity: np.ndarray
+    displacement: np.ndarray
+    energy: np.ndarray
+    force: np.ndarray
+    material: np.ndarray
+    memory: np.ndarray
+    numbers: np.ndarray
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Every array by name, as a checkpoint stores them."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @classmethod
+    def from_arrays(cls, arrays: dict[str, np.ndarray]) -> State:
+        """The state that `arrays` described."""
+        return cls(**{field.name: np.array(arrays[field.name], dtype=float) for field in fields(cls)})
+
+    def copy(self) -> State:
+        """An independent copy."""
+        return State.from_arrays(self.arrays())
+
+    @property
+    def time(self) -> float:
+        """Time of the stresses, s."""
+        return float(self.ledger[march.TIME])
+
+    @property
+    def cycle(self) -> int:
+        """Number of steps taken."""
+        return int(self.ledger[march.CYCLE])

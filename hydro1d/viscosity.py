@@ -1,0 +1,24 @@
+"""Artificial viscosity: what spreads a shock over a few zones and takes up the energy that it dissipates."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from hydro1d.parameters import Component, not_negative
+
+
+class Viscosity(Component):
+    """q = ρ0 Δv (c₂ Δv/room + c₁ c) in compression, Δv the velocity jump over the zone.
+
+    c = √(loading tangent/ρ0); room = 1 − ε, so that ρ0/room is the current density, or what is left before a law locks.
+    Foam unloads on a steep line and so keeps every overshoot: c₁ is chosen to damp the approach to the final state (each
+    zone is a mass on the locking spring; c₁ = 2 damps it critically). ``kind = "none"`` gives the mass–spring chain.
+    """
+
+    kind: Literal["standard", "none"] = "standard"
+    linear: float = not_negative("1", "coefficient c₁", default=3.0)
+    quadratic: float = not_negative("1", "coefficient c₂", default=1.0)
+
+    def coefficients(self) -> tuple[float, float]:
+        """(c₁, c₂) as the solver uses them."""
+        return (0.0, 0.0) if self.kind == "none" else (self.linear, self.quadratic)
