@@ -52,12 +52,11 @@ def convert(value: Any, unit: str) -> float:
     return result
 
 
-def describe(unit: str) -> str:
-    """What a value of the SI unit ``unit`` may be: "a pressure in Pa, or text with a unit (Pa, kPa, …)"."""
-    kind, examples = KINDS.get(parse_unit(unit).dimension, (f"a number in {unit}", unit))
-    if unit == "1":
-        return "a number"
-    return f"{kind} in {unit}, or text with a unit ({examples})"
+def describe(unit: str, bounds: str = "") -> str:
+    """What a value of the SI unit ``unit`` may be: "a pressure in Pa above 0, or text with a unit (Pa, kPa, …)"."""
+    kind, examples = KINDS.get(parse_unit(unit).dimension, ("a quantity", unit))
+    bounds = f" {bounds}" if bounds else ""
+    return f"a number{bounds}" if unit == "1" else f"{kind} in {unit}{bounds}, or text with a unit ({examples})"
 
 
 def shorten(value: Any, limit: int = 60) -> str:

@@ -1,0 +1,94 @@
+"""What the parts of a deck must be to each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from hydro1d.deck.messages import Finding
+from hydro1d.units import shorten
+
+if TYPE_CHECKING:
+    from hydro1d.boundaries.base import Boundary
+    from hydro1d.deck.model import Layer, Output, Time
+    from hydro1d.laws.base import Law
+
+
+def cross_problems(
+    layers: Sequence[Layer] | None,
+    left: Boundary | None,
+    right: Boundary | None,
+    time: Time | None,
+    output: Output | None,
+    most_zones: int,
+) -> list[Finding]:
+    """Return what is wrong between the parts of a deck; a part that is wrong itself comes as None and is passed over."""
+    found: list[Finding] = []
+    if layers is not None:
+        found += _check_layers(layers, most_zones)
+    if layers:
+        found += [
+            item for side in ("left", "right") for item in _check_end(side, left if side == "left" else right, layers)
+        ]
+    if output is not None and time is not None and not isinstance(output.profiles, int):
+        found += [
+            Finding(("output", "profiles", index), f"{at:g} s lies outside the run", at, f"0 to {time.end:g} s")
+            for index, at in enumerate(output.profiles)
+            if not 0.0 <= at <= time.end
+        ]
+    if output is not None and layers:
+        depth = sum(layer.thickness for layer in layers)
+        found += [
+            Finding(("output", "probes", index), f"{at:g} m lies outside the column", at, f"0 to {depth:g} m")
+            for index, at in enumerate(output.probes)
+            if not 0.0 <= at <= depth
+        ]
+    return found
+
+
+def _check_layers(layers: Sequence[Layer], most_zones: int) -> list[Finding]:
+    if not layers:
+        return [Finding(("layer",), "there is none", None, "one [[layer]] or more")]
+    zones = sum(layer.zones for layer in layers)
+    found = []
+    if zones > most_zones:
+        found.append(Finding(("layer",), f"{zones} zones in all layers together", zones, f"at most {most_zones}"))
+    checked: list[Law] = []
+    for index, layer in enumerate(layers):
+        if layer.thickness / layer.zones < 1e-300 or layer.law.density * layer.thickness / layer.zones < 1e-300:
+            found.append(Finding(("layer", index), "zones of no size", None, "a larger thickness or fewer zones"))
+        if not any(layer.law is law for law in checked):
+            checked.append(layer.law)
+            found += check_law((("layer", index, "law")), layer.law)
+    return found
+
+
+def check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:
+    """Run the law once in plain Python, so that the first error its author meets is not a compiler's."""
+    try:
+        from hydro1d.laws.check import check_law as run
+    except ModuleNotFoundError:
+        return []
+    try:
+        run(law)
+    except (Exception, SystemExit) as error:  # a user's code may raise anything
+        return [Finding(path, _sentence(error))]
+    return []
+
+
+def _sentence(error: BaseException) -> str:
+    text = str(error).strip() or "no message"
+    return text if isinstance(error, ValueError) else f"raised {type(error).__name__}: {shorten(text, 200)[1:-1]}"
+
+
+def _check_end(side: str, boundary: Boundary | None, layers: Sequence[Layer]) -> list[Finding]:
+    """A load that makes no sense on this end (a striker that flies away) says so before anything is computed."""
+    if boundary is None:
+        return []
+    sign, layer = (1.0, layers[0]) if side == "left" else (-1.0, layers[-1])
+    mass = 0.5 * layer.law.density * layer.thickness / layer.zones
+    try:
+        boundary.start(sign * layer.velocity, mass, sign)
+    except (Exception, SystemExit) as error:
+        return [Finding((side,), _sentence(error))]
+    return []

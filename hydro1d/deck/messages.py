@@ -1,0 +1,176 @@
+"""From pydantic's errors to sentences: the key, the value as the user wrote it, what is allowed, a suggestion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+
+from hydro1d.deck.positions import Location
+from hydro1d.errors import DeckError, Problem
+from hydro1d.units import describe, shorten
+
+MOST_SHOWN = 50  # problems in one message
+
+
+class Finding(NamedTuple):
+    """A problem before its place in the text is known. `at_key`: the key is wrong rather than its value."""
+
+    path: Location
+    message: str
+    value: Any = None
+    allowed: str = ""
+    at_key: bool = False
+
+
+def path_text(path: Location) -> str:
+    """Return ``("layer", 1, "zones")`` as ``layer[1].zones``."""
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            part = part if part.replace("_", "").replace("-", "").isalnum() and part.isascii() else shorten(part)
+            text += f".{part}" if text else part
+    return text or "deck"
+
+
+def unknown_key(path: Location, known: Iterable[str]) -> Finding:
+    """The finding for a key that nobody asks for, with the nearest one that there is."""
+    names = list(known)
+    return Finding(path, "unknown key" + suggestion(str(path[-1]), names), None, one_of(names), at_key=True)
+
+
+def unknown_word(path: Location, value: Any, what: str, known: Iterable[str]) -> Finding:
+    """The finding for a name that is not in a list."""
+    names = list(known)
+    return Finding(path, f"{shorten(value)} is not {what}{suggestion(value, names)}", value, one_of(names))
+
+
+def suggestion(word: Any, known: list[str]) -> str:
+    """A phrase with the known word nearest to ``word``, or nothing."""
+    if not isinstance(word, str) or len(word) > 100:
+        return ""
+    near = get_close_matches(word.lower().replace(" ", "_"), known, 1, 0.6)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def one_of(names: list[str], most: int = 20) -> str:
+    """The names as a list for reading."""
+    return ", ".join(shorten(name)[1:-1] for name in names[:most]) + (", …" if len(names) > most else "")
+
+
+def allowed(field: FieldInfo) -> str:
+    """What may stand in a field, as a phrase made of its unit, type and bounds."""
+    extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
+    words = _words(field.annotation)
+    if "units" in extra:
+        return f"a list of pairs ({', '.join(map(str, extra['units']))}), or the name of a CSV file"  # type: ignore
+    bounds = _bounds(field)
+    if "unit" in extra or float in words:
+        first = describe(str(extra.get("unit", "1")), bounds)
+    else:
+        names = {int: "an integer", bool: "true or false", str: "text"}
+        first = " ".join(part for part in (next((names[word] for word in words if word in names), ""), bounds) if part)
+    return " or ".join(part for part in (first, *(f'"{word}"' for word in words if isinstance(word, str))) if part)
+
+
+def _words(annotation: Any) -> list[Any]:
+    if get_origin(annotation) is Literal:
+        return list(get_args(annotation))
+    if get_origin(annotation) is not None:
+        return [word for part in get_args(annotation) for word in _words(part)]
+    return [annotation]
+
+
+def _bounds(field: FieldInfo) -> str:
+    names = {"gt": "above", "ge": "at least", "lt": "below", "le": "at most"}
+    found = [
+        f"{phrase} {_figure(getattr(part, key))}"
+        for part in field.metadata
+        for key, phrase in names.items()
+        if getattr(part, key, None) is not None
+    ]
+    unit = "characters" if str in _words(field.annotation) else "values"
+    lengths = [f"of at most {part.max_length} {unit}" for part in field.metadata if hasattr(part, "max_length")]
+    return " and ".join(found) or " ".join(lengths)
+
+
+def _figure(bound: Any) -> str:
+    return str(bound) if isinstance(bound, int) else f"{bound:g}"
+
+
+def findings_of(
+    error: ValidationError, cls: type[BaseModel], raw: Mapping[str, Any], prefix: Location
+) -> list[Finding]:
+    """Return pydantic's complaints about ``raw``, the values of ``cls`` at ``prefix``, one for each key."""
+    found: dict[Location, Finding] = {}
+    for detail in error.errors():
+        location = detail["loc"]
+        owner, values, path = cls, raw, prefix
+        while len(location) > 1 and (inner := _model(owner, location[0])) is not None:
+            path, location = (*path, location[0]), location[1:]
+            owner, values = inner, _mapping(values.get(str(path[-1])))
+        finding = _finding(detail, owner, values, path, location)
+        found.setdefault(finding.path, finding)
+    return list(found.values())
+
+
+def _model(owner: type[BaseModel], name: str | int) -> type[BaseModel] | None:
+    field = owner.model_fields.get(str(name))
+    inner = field.annotation if field is not None else None
+    return inner if isinstance(inner, type) and issubclass(inner, BaseModel) else None
+
+
+def _mapping(value: Any) -> Mapping[str, Any]:
+    return value if isinstance(value, Mapping) else {}
+
+
+def _finding(detail: Any, cls: type[BaseModel], raw: Mapping[str, Any], prefix: Location, own: Location) -> Finding:
+    """``own`` is the error's place within ``cls``: nothing, a key, or a key with an index or a union's branch."""
+    index = own[1:2] if len(own) > 1 and isinstance(own[1], int) else ()
+    path = (*prefix, *own[:1], *index)
+    kind = detail.get("ctx", {}).get("type", detail["type"])
+    text = detail["msg"].removeprefix("Value error, ")
+    field = cls.model_fields.get(str(own[0])) if own else None
+    if kind == "extra_forbidden":
+        return unknown_key(path, cls.model_fields)
+    if field is None:
+        return Finding(path, text)
+    if kind == "missing":
+        return Finding(path, "is missing", None, allowed(field))
+    value = raw.get(str(own[0]))
+    if index or kind in ("quantity", "value_error"):
+        return Finding(path, text, value, allowed(field) if kind == "quantity" else "")
+    hint = suggestion(value, [word for word in _words(field.annotation) if isinstance(word, str)])
+    reason = "is out of range" if kind.startswith(("greater", "less")) else "is not possible"
+    return Finding(path, f"{shorten(value)} {reason}{hint}", value, allowed(field))
+
+
+def deck_error(
+    source: Path | str | None,
+    findings: Iterable[Finding],
+    place: Callable[[Finding], tuple[int, int] | None] = lambda finding: None,
+    origin: Callable[[Location], str] = lambda path: "",
+) -> DeckError:
+    """Return the exception with all findings, in the order of the text.
+
+    ``place`` gives line and column of a finding; ``origin`` names the override that a value came from, if any.
+    """
+    problems = []
+    for finding in findings:
+        line, column = place(finding) or (None, None)
+        path = path_text(finding.path) + origin(finding.path)
+        problems.append(Problem(path, finding.message, finding.value, finding.allowed, line, column))
+    problems.sort(key=lambda problem: (problem.line or 0, problem.column or 0))
+    where = f"{source}: " if source else "the deck: "
+    count = "1 problem" if len(problems) == 1 else f"{len(problems)} problems"
+    error = DeckError(where + count, problems[:MOST_SHOWN])
+    if len(problems) > MOST_SHOWN:
+        error.args = (f"{error}\n  … and {len(problems) - MOST_SHOWN} more",)
+    error.problems = problems
+    return error

@@ -1,0 +1,206 @@
+"""The parts of a deck as frozen models; values in SI."""
+
+from __future__ import annotations
+
+import json
+import unicodedata
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
+
+from hydro1d.boundaries.base import Boundary
+from hydro1d.deck.checks import cross_problems
+from hydro1d.deck.messages import deck_error, findings_of
+from hydro1d.deck.names import plugin_name
+from hydro1d.laws.base import Law
+from hydro1d.parameters import Component, number, positive
+from hydro1d.units import convert, shorten
+from hydro1d.viscosity import Viscosity
+
+MOST_ZONES = 10_000_000
+MOST_PROFILES = 1_000_000
+MOST_PROBES = 10_000
+LONGEST_TITLE = 1000
+LONGEST_NAME = 200
+
+
+def plain_text(text: str) -> str:
+    """Return ``text`` if files and terminals can show it. Raises ValueError for control characters and the like."""
+    if any(unicodedata.category(character) in ("Cc", "Cs") for character in text):
+        raise ValueError("text with control characters")
+    return text
+
+
+class Layer(Component):
+    """One layer of the column: a law, how thick, how many zones, how fast at t = 0."""
+
+    law: Law
+    thickness: float = positive("m", "thickness")
+    zones: int = Field(..., ge=1, le=MOST_ZONES, description="number of zones")
+    velocity: float = number("m/s", "velocity at t = 0, positive to the right", default=0.0)
+    material: str = Field("", max_length=LONGEST_NAME, description="name of a [material.NAME] table")
+
+    _plain_material = field_validator("material")(plain_text)
+
+
+class Time(Component):
+    """How long to calculate, and how large the steps are."""
+
+    end: float = positive("s", "time at which the calculation ends")
+    cfl: float = Field(
+        0.9, gt=0.0, le=1.0, allow_inf_nan=False, json_schema_extra={"unit": "1"},
+        description="time step as a share of the stability bound",
+    )  # fmt: skip
+
+
+class Output(Component):
+    """What is stored, and when."""
+
+    profiles: int | tuple[float, ...] = Field(
+        100,
+        json_schema_extra={"unit": "s"},
+        description="how many profiles, evenly spaced from t = 0 to the end, or a list of rising times",
+    )
+    history: int = Field(1, ge=1, le=10**9, description="a row of the history every so many cycles")
+    probes: tuple[float, ...] = Field(
+        (), json_schema_extra={"unit": "m"}, max_length=MOST_PROBES, description="Lagrangian positions of the probes"
+    )
+
+    @field_validator("profiles", mode="before")
+    @classmethod
+    def _count_or_times(cls, value: Any) -> Any:
+        if isinstance(value, int) and not isinstance(value, bool) and 2 <= value <= MOST_PROFILES:
+            return value
+        if isinstance(value, list | tuple) and 1 <= len(value) <= MOST_PROFILES:
+            times = tuple(convert(time, "s") for time in value)
+            if any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
+                raise ValueError("the times must rise strictly")
+            return times
+        raise ValueError(f"{shorten(value)} is neither a count from 2 to {MOST_PROFILES} nor a list of times")
+
+
+class Checkpoint(Component):
+    """How often the state is saved: by cycles, by simulated time or by wall time; exactly one of them."""
+
+    cycles: int | None = Field(None, ge=1, le=10**12, description="cycles between checkpoints")
+    time: float | None = positive("s", "simulated time between checkpoints", default=None)
+    wall: float | None = positive("s", "wall time between checkpoints", default=None)
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> Checkpoint:
+        if sum(interval is not None for interval in (self.cycles, self.time, self.wall)) != 1:
+            raise ValueError("needs exactly one of cycles, time, wall")
+        return self
+
+
+class Deck(Component):
+    """A whole deck, checked. Raises DeckError, with all that is wrong, when it is built.
+
+    In Python::
+
+        Deck(
+            layers=[Layer(law=EPPH(...), thickness="1 m", zones=1000)],
+            left=Pressure(pulse=Rectangular(peak="3.6 MPa", duration="1.53 ms")),
+            right=Wall(),
+            end="8 ms",
+        )
+
+    ``end`` and ``cfl`` may stand for ``time=Time(end=..., cfl=...)``. `names` holds how a deck's text calls its
+    components ("layer[0].law": "my_foam.py:MyFoam"); `text` and `path` are its text and file, if it has any.
+    """
+
+    model_config = ConfigDict(arbitrary_types_allowed=False)
+
+    title: str = Field("", max_length=LONGEST_TITLE, description="a line of text that figures and files carry")
+    layers: tuple[Layer, ...]
+    left: Boundary
+    right: Boundary
+    time: Time
+    viscosity: Viscosity = Viscosity()
+    output: Output = Output()
+    checkpoint: Checkpoint | None = None
+    names: dict[str, str] = Field(default_factory=dict, repr=False)
+    text: str = Field("", repr=False)
+    path: Path | None = None
+
+    _plain_title = field_validator("title")(plain_text)
+
+    def __init__(self, **values: Any) -> None:
+        if "end" in values:
+            values["time"] = {key: values.pop(key) for key in ("end", "cfl") if key in values}
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise deck_error(values.get("path"), findings_of(error, type(self), values, ())) from None
+
+    @model_validator(mode="after")
+    def _as_a_whole(self) -> Deck:
+        found = cross_problems(self.layers, self.left, self.right, self.time, self.output, MOST_ZONES)
+        if found:
+            raise deck_error(self.path, found)
+        # Frozen for everyone else: what the parts could not know without each other is filled in here.
+        object.__setattr__(self, "output", self._resolved_output())
+        object.__setattr__(self, "layers", tuple(self._named(index) for index in range(len(self.layers))))
+        return self
+
+    def _resolved_output(self) -> Output:
+        count, end = self.output.profiles, self.time.end
+        if not isinstance(count, int):
+            return self.output
+        times = (*(index * end / (count - 1) for index in range(count - 1)), end)
+        return self.output.model_copy(update={"profiles": times})
+
+    def _named(self, index: int) -> Layer:
+        layer = self.layers[index]
+        name = layer.material or self._name(f"layer[{index}].law", "law", layer.law)
+        return layer if name == layer.material else layer.model_copy(update={"material": name})
+
+    def _name(self, path: str, kind: str, component: Component) -> str:
+        return self.names.get(path) or plugin_name(kind, type(component))
+
+    def user_code(self) -> tuple[str, ...]:
+        """The Python files of the user's that this deck names: they were run to load it."""
+        return tuple(sorted({name.partition(":")[0] for name in self.names.values() if ".py" in name}))
+
+    def resolved(self) -> dict[str, Any]:
+        """The deck as plain data, values in SI, that JSON can hold and `load_deck` takes again."""
+        materials: dict[str, Any] = {}
+        layers = []
+        for index, layer in enumerate(self.layers):
+            law = {"law": self._name(f"layer[{index}].law", "law", layer.law), **_plain(layer.law)}
+            name = layer.material
+            while materials.setdefault(name, law) != law:  # two laws of one name, as Python allows
+                name = f"{name}-{index + 1}"
+            layers.append({"material": name, **_plain(layer, without=("law", "material"))})
+        data = {
+            "title": self.title,
+            "material": materials,
+            "layer": layers,
+            "left": self._resolved_boundary("left", self.left),
+            "right": self._resolved_boundary("right", self.right),
+            "time": _plain(self.time),
+            "viscosity": _plain(self.viscosity),
+            "output": _plain(self.output),
+        }
+        return data if self.checkpoint is None else {**data, "checkpoint": _plain(self.checkpoint)}
+
+    def _resolved_boundary(self, side: str, boundary: Boundary) -> dict[str, Any]:
+        data = {"type": self._name(f"{side}.type", "boundary", boundary)}
+        pulse = getattr(boundary, "pulse", None)
+        if isinstance(pulse, Component):
+            data |= {"pulse": self._name(f"{side}.pulse", "pulse", pulse), **_plain(pulse)}
+        return {**data, **_plain(boundary, without=("pulse",))}
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Deck) and self.resolved() == other.resolved()
+
+    def __hash__(self) -> int:
+        return hash(json.dumps(self.resolved(), sort_keys=True))
+
+
+def _plain(component: Component, without: tuple[str, ...] = ()) -> dict[str, Any]:
+    """The fields of a component as JSON holds them; None stands for "not given" and is left out."""
+    values: Mapping[str, Any] = component.model_dump(mode="json", exclude=set(without), exclude_none=True)
+    return dict(values)
