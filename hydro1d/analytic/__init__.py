@@ -1,5 +1,6 @@
 """Exact solutions to measure the solver against; imports neither solver nor laws. SI units, compression positive."""
 
+from hydro1d.analytic.compaction_column import ColumnHistory, CompactionPulse, CompactionStriker
 from hydro1d.analytic.curves import (
     EPH,
     EPPH,
@@ -25,6 +26,9 @@ __all__ = [
     "EPPH",
     "RPH",
     "RPPL",
+    "ColumnHistory",
+    "CompactionPulse",
+    "CompactionStriker",
     "Curve",
     "Elastic",
     "EnergyBalanceStriker",

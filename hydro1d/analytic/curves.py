@@ -6,6 +6,7 @@ exact solutions need: a front can only end at a corner or at the final state.
 
 import math
 from abc import ABC, abstractmethod
+from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -260,6 +261,15 @@ class Trilinear(_PlateauCurve):
     def _slope(self, strain: Array) -> Array:
         return np.full_like(strain, self.locking_modulus)
 
+    def strain_at(self, stress: float) -> float:
+        """The strain that carries `stress` (Pa); ValueError where there is none."""
+        rise = stress - self.plateau_stress
+        if rise <= 0.0:
+            return stress / self.modulus
+        strain = self.densification_strain + rise / self.locking_modulus
+        require(strain < 1.0, "stress", stress, "less than the stress at strain 1")
+        return strain
+
 
 def stiff_rppl(density: float, plateau_stress: float, densification_strain: float, stiffness: float) -> Trilinear:
     """R-P-P-L at finite stiffness K (Pa): elastic line and locking line both of slope K."""
@@ -370,6 +380,14 @@ class RPH(Curve):
         plastic = (strain >= self.corners[0]) & (strain < self.corners[1])
         return np.where(plastic, self.hardening * (1.0 + strain) / (1.0 - strain) ** 3, self.modulus)
 
+    def strain_at(self, stress: float) -> float:
+        """The strain that carries `stress` (Pa); ValueError where there is none."""
+        rise = max(stress - self.plateau_stress, 0.0)
+        root = math.sqrt(self.hardening * (4.0 * rise + self.hardening))
+        strain = max(stress / self.modulus, 2.0 * rise / (2.0 * rise + self.hardening + root))
+        require(strain < 1.0, "stress", stress, "less than the stress at strain 1")
+        return strain
+
 
 @dataclass(frozen=True)
 class Table(Curve):
@@ -413,6 +431,17 @@ class Table(Curve):
     def tangent(self, strain: ArrayLike) -> Array:
         """Slope of the curve, Pa, shape of `strain`."""
         return self._slopes()[np.searchsorted(self.strains, np.asarray(strain), side="right")]
+
+    def strain_at(self, stress: float) -> float:
+        """The strain that carries `stress` (Pa); ValueError where there is none."""
+        if stress <= self.stresses[0]:
+            return stress / self.modulus
+        line = min(bisect_left(self.stresses, stress), len(self.strains) - 1)
+        slope = float(self._slopes()[line])
+        require(slope > 0.0, "stress", stress, f"at most {self.stresses[-1]:.9g} Pa, where the table ends flat")
+        strain = self.strains[line - 1] + (stress - self.stresses[line - 1]) / slope
+        require(strain < 1.0, "stress", stress, "less than the stress at strain 1")
+        return strain
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 Source: Eqs. 34, 35 and 37 of Harrigan, Reid & Seyed Yaghoubi 2010, doi:10.1016/j.ijimpeng.2009.03.011.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -35,8 +36,9 @@ def compaction_hugoniot(curve: Curve, velocity_jump: ArrayLike) -> Hugoniot:
     """
     velocity_jump = np.asarray(velocity_jump, dtype=float)
     strain = np.vectorize(lambda jump: compaction_strain(curve, jump), otypes=[float])(velocity_jump)
-    stress = curve.stress(strain)
     change = strain - curve.yield_strain
+    # Eq. 37 and not the curve: where locking is stiff, the curve turns the last bit of the strain into stress.
+    stress = curve.yield_stress + curve.density * np.square(velocity_jump) / change
     return Hugoniot(
         velocity_jump,
         strain,
@@ -53,20 +55,22 @@ def compaction_strain(curve: Curve, velocity_jump: float) -> float:
     Raises ValueError as `compaction_hugoniot` does.
     """
     require(velocity_jump > 0.0, "velocity_jump", velocity_jump, "greater than 0")
-    start = curve.yield_strain
+    target = curve.density * velocity_jump**2
+    highest = float(curve.stress(curve.strain_limit)) - curve.yield_stress
+    fastest = math.sqrt(highest * (curve.strain_limit - curve.yield_strain) / curve.density)
+    require(velocity_jump <= fastest, "velocity_jump", velocity_jump, f"at most {fastest:.9g} m/s: the curve ends")
 
-    def short_of(strain: float) -> float:
-        rise = float(curve.stress(strain)) - curve.yield_stress
-        return float(np.sqrt(max(rise, 0.0) * (strain - start) / curve.density)) - velocity_jump
+    # The unknown is the stress: well-conditioned however stiff the locking.
+    def change(rise: float) -> float:
+        return curve.strain_at(curve.yield_stress + rise) - curve.yield_strain
 
-    end = curve.strain_limit
-    fastest = short_of(end) + velocity_jump
-    require(
-        velocity_jump <= fastest, "velocity_jump", velocity_jump, f"at most {fastest:.9g} m/s, where the curve ends"
-    )
-    strain = float(brentq(short_of, start, end, xtol=1e-16, rtol=1e-15))
-    _require_single_shock(curve, strain)
-    return strain
+    low = min(target / (curve.strain_limit - curve.yield_strain), highest)
+    high = low
+    while high < highest and high * change(high) < target:
+        high = min(2.0 * high, highest)
+    rise = brentq(lambda rise: rise * change(rise) - target, low, high, xtol=1e-14 * high, rtol=1e-15)
+    _require_single_shock(curve, curve.yield_strain + target / rise)
+    return curve.yield_strain + target / float(rise)
 
 
 def _require_single_shock(curve: Curve, strain: float) -> None:

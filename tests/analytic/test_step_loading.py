@@ -37,7 +37,7 @@ def curves(draw):
         "trilinear": lambda: Trilinear(rho, modulus, plateau, locking, plateau * draw(st.floats(90.0, 500.0))),
         "rppl": lambda: stiff_rppl(rho, plateau, locking, 400 * plateau),
         "eppr": lambda: stiff_eppr(rho, modulus, plateau, locking, 1000 * plateau),
-        "eph": lambda: EPH(rho, modulus, plateau, modulus / draw(st.floats(1.5, 10.0))),
+        "eph": lambda: EPH(rho, 30 * modulus, plateau, modulus * draw(st.floats(1.5, 10.0))),
         "rph": lambda: RPH(rho, 2 * modulus, plateau, plateau * draw(st.floats(0.1, 0.5))),
         "table": lambda: Table(
             rho, modulus, (plateau / modulus, 0.4, 0.6, 0.7), (plateau, 1.1 * plateau, 1.5 * plateau, 12 * plateau)
