@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolution, solve_ivp
 
-from hydro1d.analytic._checks import Array, coordinates, length_allowed, positive, require, times
+from hydro1d.analytic._checks import Array, Flags, coordinates, length_allowed, positive, require, times
 from hydro1d.analytic._roots import bisect
 from hydro1d.analytic.curves import Curve
 from hydro1d.analytic.hugoniot import compaction_hugoniot, compaction_strain
