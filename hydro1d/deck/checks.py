@@ -22,14 +22,12 @@ def cross_problems(
     output: Output | None,
     most_zones: int,
 ) -> list[Finding]:
-    """Return what is wrong between the parts of a deck; a part that is wrong itself comes as None and is passed over."""
+    """Return what is wrong between the parts of a deck; a part that is wrong itself comes as None."""
     found: list[Finding] = []
     if layers is not None:
         found += _check_layers(layers, most_zones)
     if layers:
-        found += [
-            item for side in ("left", "right") for item in _check_end(side, left if side == "left" else right, layers)
-        ]
+        found += _check_end("left", left, layers) + _check_end("right", right, layers)
     if output is not None and time is not None and not isinstance(output.profiles, int):
         found += [
             Finding(("output", "profiles", index), f"{at:g} s lies outside the run", at, f"0 to {time.end:g} s")

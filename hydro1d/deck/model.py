@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import unicodedata
 from collections.abc import Mapping
@@ -75,7 +76,7 @@ class Output(Component):
             return value
         if isinstance(value, list | tuple) and 1 <= len(value) <= MOST_PROFILES:
             times = tuple(convert(time, "s") for time in value)
-            if any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
+            if any(later <= earlier for earlier, later in itertools.pairwise(times)):
                 raise ValueError("the times must rise strictly")
             return times
         raise ValueError(f"{shorten(value)} is neither a count from 2 to {MOST_PROFILES} nor a list of times")

@@ -1,0 +1,49 @@
+"""``hydro1d check``: is a deck right, and what does it say?"""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from hydro1d.cli import _common
+
+if TYPE_CHECKING:
+    from hydro1d.deck import Deck
+
+HELP = "check a deck and say what it asks for, without running it"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of ``hydro1d check``."""
+    _common.add_deck(parser)
+
+
+def run(args: argparse.Namespace) -> None:
+    """Print a reading of the deck; an error in it raises DeckError."""
+    from hydro1d.deck import load_deck
+
+    deck = load_deck(args.deck, args.overrides)
+    print("\n".join([f"{args.deck}: in order", *reading(deck)]))
+
+
+def reading(deck: Deck) -> list[str]:
+    """What the deck asks for, in a few lines."""
+    plain = deck.resolved()
+    lines = [f"title: {deck.title}"] if deck.title else []
+    for index, layer in enumerate(deck.layers):
+        law = plain["material"][plain["layer"][index]["material"]]["law"]
+        size = _common.figure(layer.thickness / layer.zones, "m")
+        moving = f", moving at {layer.velocity:g} m/s" if layer.velocity else ""
+        thickness = _common.figure(layer.thickness, "m")
+        lines.append(f"layer[{index}]: {layer.material} ({law}), {thickness} in {layer.zones} zones of {size}{moving}")
+    for side in ("left", "right"):
+        pulse = f", {plain[side]['pulse']}" if "pulse" in plain[side] else ""
+        peak = getattr(deck, side).peak()
+        lines.append(f"{side}: {plain[side]['type']}{pulse}" + (f", peak {_common.figure(peak, 'Pa')}" if peak else ""))
+    profiles = len(deck.output.profiles)  # type: ignore[arg-type]
+    zones = sum(layer.zones for layer in deck.layers)
+    megabytes = profiles * zones * 8 * 8 / 1e6
+    lines.append(f"until t = {_common.figure(deck.time.end, 's')}; {_common.count(profiles, 'profile')}, "
+                 f"about {megabytes:.3g} MB before compression")  # fmt: skip
+    lines += [f"note: {file} is Python code that this deck names; it was run to check it" for file in deck.user_code()]
+    return lines

@@ -1,0 +1,97 @@
+"""``hydro1d laws``: what can stand in a deck."""
+
+from __future__ import annotations
+
+import argparse
+import inspect
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hydro1d.parameters import Component
+
+HELP = "list the laws, boundaries and pulses, or show the keys of one"
+KINDS = {"law": "law = ", "boundary": "type = ", "pulse": "pulse = "}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of ``hydro1d laws``."""
+    parser.add_argument("name", metavar="NAME", nargs="?", help='a law, boundary or pulse, or "file.py:Class"')
+
+
+def run(args: argparse.Namespace) -> None:
+    """Print the list, or one entry."""
+    print("\n".join(_overview() if args.name is None else _entry(args.name)))
+
+
+def _overview() -> list[str]:
+    from hydro1d.plugins import available
+
+    lines = []
+    for kind, key in KINDS.items():
+        lines.append(f"{kind} ({key}…)")
+        for name, load in sorted(available(kind).items()):
+            try:
+                text = first_line(load())
+            except Exception as error:  # someone else's entry point
+                text = f"(cannot be loaded: {error})"
+            lines.append(f"  {name:<14}{text}")
+        lines.append("")
+    return [*lines, "hydro1d laws NAME shows the keys of one."]
+
+
+def first_line(cls: type[Component]) -> str:
+    """The first line of a component's description."""
+    return (inspect.getdoc(cls) or "").split("\n")[0]
+
+
+def _entry(name: str) -> list[str]:
+    found = _classes(name)
+    lines = []
+    for kind, cls in found:
+        lines += [f'{kind}: {KINDS[kind]}"{name}"', "", *(inspect.getdoc(cls) or "").split("\n"), "", "keys:"]
+        lines += [*keys(cls), ""]
+    return lines[:-1]
+
+
+def _classes(name: str) -> list[tuple[str, type[Component]]]:
+    """A name may stand for several things ("table" is a law and a pulse)."""
+    from hydro1d.deck.messages import suggestion
+    from hydro1d.errors import DeckError
+    from hydro1d.plugins import available, find
+
+    if ".py" in name:
+        for kind in KINDS:
+            try:
+                return [(kind, find(kind, name, Path.cwd()))]
+            except ValueError as error:
+                reason = error
+                if kind == "law" and "subclass" not in str(error):
+                    break
+        raise DeckError(str(reason))
+    found = [(kind, available(kind)[name]()) for kind in KINDS if name in available(kind)]
+    if not found:
+        names = sorted({word for kind in KINDS for word in available(kind)})
+        raise DeckError(f"nothing is called {name[:100]!r}{suggestion(name, names)}; there are {', '.join(names)}")
+    return found
+
+
+def keys(cls: type[Component]) -> list[str]:
+    """One line for each key: name, what it is, what is allowed, the default."""
+    from hydro1d.deck.messages import allowed
+
+    lines = []
+    for name, field in cls.model_fields.items():
+        if name == "pulse":
+            lines.append("  pulse                 a pulse; its keys stand beside (hydro1d laws lists the pulses)")
+            continue
+        default = "required" if field.is_required() else f"default {_default(field.default)}"
+        text = "; ".join(part for part in (field.description, allowed(field), default) if part)
+        lines.append(f"  {name:<22}{text}")
+    return lines or ["  none"]
+
+
+def _default(value: object) -> str:
+    if value is None:
+        return "none"
+    return str(value).lower() if isinstance(value, bool) else str(value)

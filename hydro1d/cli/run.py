@@ -1,0 +1,77 @@
+"""``hydro1d run``: a deck becomes a result."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hydro1d.cli import _common
+
+if TYPE_CHECKING:
+    from hydro1d.deck import Deck
+    from hydro1d.store import Run
+
+HELP = "run a deck and write its result as HDF5"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of ``hydro1d run``."""
+    _common.add_deck(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", type=Path, help="result; default: the deck's name with .h5, here"
+    )
+    parser.add_argument("--restart", metavar="FILE", type=Path, help="go on from a checkpoint")
+    parser.add_argument(
+        "--force", action="store_true", help="restart although deck or law differ from the checkpoint's"
+    )
+    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+def run(args: argparse.Namespace) -> None:
+    """Check deck and target, calculate, say what came out."""
+    from hydro1d.deck import load_deck
+
+    deck = load_deck(args.deck, args.overrides)
+    output = args.output or Path(args.deck.stem + ".h5")
+    from hydro1d.store import check_target
+
+    check_target(output)
+    from hydro1d.api import run as calculate
+
+    with _common.progress_bar(args.quiet) as progress:
+        result = calculate(deck, output, restart=args.restart, force=args.force, progress=progress)
+    if not args.quiet:
+        print("\n".join(summary(deck, result, output)))
+
+
+def summary(deck: Deck, result: Run, output: Path) -> list[str]:
+    """Lines that answer first what a user runs the code for: is the load enhanced, is the column crushed."""
+    history = result.history
+    lines = [f"{result.title}"] if result.title else []
+    lines.append(_loads(deck, history["peak_left_stress"][-1], history["peak_right_stress"][-1]))
+    uncrushed = float(history["uncrushed_fraction"][-1])
+    if uncrushed == uncrushed:
+        lines.append("column: fully crushed" if uncrushed <= 0.0 else f"column: {100 * uncrushed:.4g} % is not crushed")
+    cycles, wall = int(result.attributes["cycles"]), float(result.attributes["wall_seconds"])
+    end = _common.figure(float(history["time"][-1]), "s")
+    error = abs(history["energy_error"]).max()
+    lines.append(
+        f"{_common.count(cycles, 'cycle')} to t = {end} in {_common.figure(wall, 's')}; energy error {error:.1e}"
+    )
+    return [*lines, f"result: {output}"]
+
+
+def _loads(deck: Deck, left: float, right: float) -> str:
+    """Peak support stress over the peak of the applied pressure, where there is a pressure on one end."""
+    applied = {"left": deck.left.peak(), "right": deck.right.peak()}
+    loaded = [side for side, peak in applied.items() if peak > 0.0]
+    if len(loaded) != 1:
+        return f"peak stress on the ends: left {_common.figure(left, 'Pa')}, right {_common.figure(right, 'Pa')}"
+    support, peak = (right, applied["left"]) if loaded == ["left"] else (left, applied["right"])
+    ratio = support / peak
+    outcome = "enhanced" if ratio > 1.0 else "attenuated"
+    return (
+        f"support stress: {outcome}, {ratio:.4g} times the applied peak "
+        f"({_common.figure(support, 'Pa')} over {_common.figure(peak, 'Pa')})"
+    )
