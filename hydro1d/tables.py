@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from hydro1d.unit_table import ATOMS
 from hydro1d.units import UnitError, convert, parse_unit
 
 LARGEST_FILE = 64 * 1024**2  # bytes
@@ -150,6 +151,12 @@ def _unit(cell: str, wanted: str, place: str, must_be_unit: bool) -> str:
         fits, problem = False, str(error)
     if fits:
         return text
-    if bracketed or must_be_unit or "did you mean" in problem:
+    if bracketed or must_be_unit or _is_misspelt(text, wanted):
         raise TableError(f"{place}: {problem}")
     return ""
+
+
+def _is_misspelt(text: str, wanted: str) -> bool:
+    """Whether the title of a column is one of its units in the wrong case: a "Mpa" taken for a title is 1e6 off."""
+    dimension = parse_unit(wanted).dimension
+    return text.lower() in {name.lower() for name, unit in ATOMS.items() if unit.dimension == dimension}
