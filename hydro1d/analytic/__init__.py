@@ -15,7 +15,10 @@ from hydro1d.analytic.curves import (
     stiff_rppl,
 )
 from hydro1d.analytic.hugoniot import Hugoniot, compaction_hugoniot
+from hydro1d.analytic.isentropic import SimpleWave
 from hydro1d.analytic.jumps import Fields, Jump, Residuals, State
+from hydro1d.analytic.noh import Noh
+from hydro1d.analytic.riemann import Gas, RiemannProblem
 from hydro1d.analytic.rppl import RPPL, FrontHistory, RPPLStriker
 from hydro1d.analytic.rppl_energy_balance import EnergyBalanceStriker
 from hydro1d.analytic.rppl_pulse import RPPLPulse
@@ -34,11 +37,15 @@ __all__ = [
     "EnergyBalanceStriker",
     "Fields",
     "FrontHistory",
+    "Gas",
     "Hugoniot",
     "Jump",
+    "Noh",
     "RPPLPulse",
     "RPPLStriker",
     "Residuals",
+    "RiemannProblem",
+    "SimpleWave",
     "State",
     "StepLoading",
     "Table",
