@@ -12,10 +12,11 @@ from pydantic import Field, ValidationError, field_validator
 from hydro1d.boundaries.base import Boundary
 from hydro1d.deck import overrides as overriding
 from hydro1d.deck.checks import cross_problems
-from hydro1d.deck.messages import Finding, deck_error, findings_of, one_of, unknown_key, unknown_word
+from hydro1d.deck.messages import MOST_FOUND, Finding, deck_error, findings_of, one_of, unknown_key, unknown_word
 from hydro1d.deck.model import (
     LONGEST_NAME,
     LONGEST_TITLE,
+    MOST_LAYERS,
     MOST_ZONES,
     Checkpoint,
     Deck,
@@ -91,10 +92,12 @@ class _Builder:
         self.data, self.folder = data, folder
         self.found: list[Finding] = []
         self.names: dict[str, str] = {}
+        self._known_words: dict[str, str] = {}
 
     def build(self) -> dict[str, Any]:
         """Return the arguments of `Deck`; they are complete only if `found` stays empty."""
-        self.found += [unknown_key((key,), _SECTIONS) for key in self.data if key not in _SECTIONS]
+        unknown = [key for key in self.data if key not in _SECTIONS]
+        self.found += [unknown_key((key,), _SECTIONS) for key in unknown[:MOST_FOUND]]
         parts: dict[str, Any] = {
             "title": self._title(),
             "layers": self._layers(self._materials()),
@@ -154,7 +157,7 @@ class _Builder:
         name = values.get(str(path[-1]))
         if not isinstance(name, str) or len(name) > 1000:
             message = "is missing" if name is None else f"{shorten(name)} is not a name"
-            names = one_of(sorted(available(kind)))
+            names = self._words(kind)
             self.found.append(Finding(path, message, name, f'{names}, or "file.py:Class"'))
             return None
         try:
@@ -166,6 +169,11 @@ class _Builder:
             self.found.append(Finding(path, text[:500], name))
         return None
 
+    def _words(self, kind: str) -> str:
+        if kind not in self._known_words:
+            self._known_words[kind] = one_of(sorted(available(kind)))
+        return self._known_words[kind]
+
     def _materials(self) -> dict[str, tuple[str, Law | None]]:
         """Name → (the deck's word for the law, the law or None if it is wrong)."""
         if "material" not in self.data:
@@ -174,7 +182,11 @@ class _Builder:
             )
             return {}
         materials = {}
-        for name, values in (self._table(("material",), self.data["material"]) or {}).items():
+        tables = self._table(("material",), self.data["material"]) or {}
+        if len(tables) > MOST_LAYERS:
+            self.found.append(Finding(("material",), f"{len(tables)} materials", None, f"at most {MOST_LAYERS}"))
+            return {}
+        for name, values in tables.items():
             path = ("material", name)
             if not name or len(name) > LONGEST_NAME:
                 self.found.append(Finding(path, f"{shorten(name)} is not a name", name, "a short text", at_key=True))
@@ -192,6 +204,9 @@ class _Builder:
             self.found.append(
                 Finding(("layer",), "is not a list of layers", None, "[[layer]], with two brackets", at_key=True)
             )
+            return None
+        if len(rows) > MOST_LAYERS:
+            self.found.append(Finding(("layer",), f"{len(rows)} layers", None, f"at most {MOST_LAYERS}", at_key=True))
             return None
         layers = [self._layer(index, row, materials) for index, row in enumerate(rows)]
         return [layer for layer in layers if layer is not None] if None not in layers else None
@@ -217,7 +232,7 @@ class _Builder:
 
     def _boundary(self, side: str) -> Boundary | None:
         if side not in self.data:
-            types = one_of(sorted(available("boundary")))
+            types = self._words("boundary")
             self.found.append(Finding((side,), "is missing", None, f"a table [{side}] with type = {types}"))
             return None
         table = self._table((side,), self.data[side])
@@ -241,8 +256,8 @@ class _Builder:
         own = {key: value for key, value in values.items() if key in cls.model_fields and key != "pulse"}
         known = {**pulse_cls.model_fields, **cls.model_fields}
         unknown = [key for key in values if key not in known]
-        self.found += [unknown_key((side, key), known) for key in unknown]
-        rest = {key: value for key, value in values.items() if key not in cls.model_fields and key not in unknown}
+        self.found += [unknown_key((side, key), known) for key in unknown[:MOST_FOUND]]
+        rest = {key: value for key, value in values.items() if key not in cls.model_fields and key in known}
         pulse = self._validated(pulse_cls, rest, (side,))
         return None if pulse is None else self._validated(cls, {**own, "pulse": pulse}, (side,))
 

@@ -15,6 +15,7 @@ from hydro1d.errors import DeckError, Problem
 from hydro1d.units import describe, shorten
 
 MOST_SHOWN = 50  # problems in one message
+MOST_FOUND = 500  # in one table; nobody corrects more at once, and each costs time
 
 
 class Finding(NamedTuple):
@@ -34,7 +35,8 @@ def path_text(path: Location) -> str:
         if isinstance(part, int):
             text += f"[{part}]"
         else:
-            part = part if part.replace("_", "").replace("-", "").isalnum() and part.isascii() else shorten(part)
+            is_bare = len(part) < 100 and part.isascii() and part.replace("_", "").replace("-", "").isalnum()
+            part = part if is_bare else shorten(part)
             text += f".{part}" if text else part
     return text or "deck"
 
@@ -109,7 +111,7 @@ def findings_of(
 ) -> list[Finding]:
     """Return pydantic's complaints about ``raw``, the values of ``cls`` at ``prefix``, one for each key."""
     found: dict[Location, Finding] = {}
-    for detail in error.errors():
+    for detail in error.errors(include_url=False)[:MOST_FOUND]:
         location = detail["loc"]
         owner, values, path = cls, raw, prefix
         while len(location) > 1 and (inner := _model(owner, location[0])) is not None:

@@ -21,6 +21,7 @@ from hydro1d.units import convert, shorten
 from hydro1d.viscosity import Viscosity
 
 MOST_ZONES = 10_000_000
+MOST_LAYERS = 2_000
 MOST_PROFILES = 1_000_000
 MOST_PROBES = 10_000
 LONGEST_TITLE = 1000
@@ -115,7 +116,7 @@ class Deck(Component):
     model_config = ConfigDict(arbitrary_types_allowed=False)
 
     title: str = Field("", max_length=LONGEST_TITLE, description="a line of text that figures and files carry")
-    layers: tuple[Layer, ...]
+    layers: tuple[Layer, ...] = Field(..., max_length=MOST_LAYERS)
     left: Boundary
     right: Boundary
     time: Time

@@ -9,7 +9,7 @@ from typing import Any
 
 from hydro1d.errors import DeckError, FileProblem, Problem
 
-LARGEST_DECK = 1024**2  # bytes; measured tables belong into CSV files
+LARGEST_DECK = 512 * 1024  # bytes; measured tables belong into CSV files
 DEEPEST_KEY = 50  # dots in one key
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
