@@ -1,0 +1,205 @@
+"""Rigid, plastic hardening (R-PH) foam: a striker's decaying shock and a piston's steady one.
+
+stress = plateau + hardening strain/(1 - strain)^2, rigid below. Jump conditions from rest give
+strain = v/(v + c) with c = sqrt(hardening/rho0), so the Lagrangian shock speed is v + c.
+Source: Zheng, Wang, Yu, Reid & Harrigan, J. Mech. Phys. Solids 72 (2014) 93-114, doi:10.1016/j.jmps.2014.07.013.
+With m = M + rho0 X (mass that moves) the striker obeys m v = M v0 - plateau t, and dX/dt = v + c gives
+d(ln m)/dv = -rho0 (v + c)/(plateau + rho0 v (v + c)): elementary, so time and front are closed functions of v.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hydro1d.analytic._checks import Array, coordinates, length_allowed, positive, times
+from hydro1d.analytic._roots import bisect
+from hydro1d.analytic.jumps import Fields, Jump, State
+from hydro1d.analytic.rppl import FrontHistory
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
+
+
+@dataclass(frozen=True)
+class RPHFoam:
+    """Rigid, plastic hardening: density kg/m^3, plateau_stress and hardening in Pa."""
+
+    density: float
+    plateau_stress: float
+    hardening: float
+
+    def __post_init__(self) -> None:
+        positive(self, "density", "plateau_stress", "hardening")
+
+    @property
+    def slowest_front(self) -> float:
+        """c, the Lagrangian speed of a vanishing shock, m/s."""
+        return math.sqrt(self.hardening / self.density)
+
+    def strain(self, velocity: ArrayLike) -> Array:
+        """Strain behind a shock from rest to `velocity` (m/s)."""
+        velocity = np.asarray(velocity, dtype=float)
+        return velocity / (velocity + self.slowest_front)
+
+    def shock_stress(self, velocity: ArrayLike) -> Array:
+        """Stress behind a shock from rest to `velocity` (m/s), Pa."""
+        velocity = np.asarray(velocity, dtype=float)
+        return self.plateau_stress + self.density * velocity * (velocity + self.slowest_front)
+
+    def stress(self, strain: ArrayLike) -> Array:
+        """The law itself beyond yield, Pa."""
+        strain = np.asarray(strain, dtype=float)
+        return self.plateau_stress + self.hardening * strain / np.square(1.0 - strain)
+
+    def absorbed_energy(self, velocity: ArrayLike) -> Array:
+        """Internal energy behind a shock from rest to `velocity` (m/s), J/kg."""
+        return 0.5 * (self.plateau_stress + self.shock_stress(velocity)) * self.strain(velocity) / self.density
+
+    def jump(self, velocity: float, coordinate: float) -> Jump:
+        """The front at `coordinate` (m), crushed material moving at `velocity` (m/s)."""
+        strain = float(self.strain(velocity))
+        density = self.density / (1.0 - strain)
+        ahead = State(0.0, self.plateau_stress, 0.0, self.density, 0.0)
+        behind = State(
+            velocity, float(self.shock_stress(velocity)), strain, density, float(self.absorbed_energy(velocity))
+        )
+        return Jump(ahead, behind, self.density, velocity + self.slowest_front, coordinate)
+
+
+@dataclass(frozen=True)
+class RPHPiston:
+    """A piston of constant velocity (m/s) against R-PH foam; length of the column, m. Steady shock."""
+
+    foam: RPHFoam
+    velocity: float
+    length: float = math.inf
+
+    def __post_init__(self) -> None:
+        positive(self, "velocity")
+        length_allowed(self.length)
+
+    @property
+    def end_time(self) -> float:
+        """When the front reaches the far end, s."""
+        return self.length / (self.velocity + self.foam.slowest_front)
+
+    def jumps(self, t: float = 0.0) -> list[Jump]:
+        """The front at time t (s)."""
+        return [self.foam.jump(self.velocity, t * (self.velocity + self.foam.slowest_front))]
+
+    def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
+        """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""
+        t = times(t, self.end_time, "then the front reaches the far end")
+        (front,) = self.jumps()
+        crushed = coordinates(coordinate, self.length) < front.front_speed * t
+        return Fields(*(np.where(crushed, b, a) for a, b in zip(front.ahead, front.behind, strict=True)))
+
+
+@dataclass(frozen=True)
+class RPHStriker:
+    """A rigid mass against R-PH foam with a fixed back; crushed material does not unload.
+
+    foam; mass of the striker per area, kg/m^2; impact_velocity m/s; length of the column, m.
+    The stress after the striker has come to rest is NaN: undetermined in rigid bodies. ValueError after `end_time`,
+    when the front reaches the back.
+    """
+
+    foam: RPHFoam
+    mass: float
+    impact_velocity: float
+    length: float = math.inf
+
+    def __post_init__(self) -> None:
+        positive(self, "mass", "impact_velocity")
+        length_allowed(self.length)
+
+    @property
+    def stop_time(self) -> float:
+        """When the striker comes to rest in a column long enough, s."""
+        return self.mass * self.impact_velocity / self.foam.plateau_stress
+
+    @property
+    def stop_front(self) -> float:
+        """Length of column crushed when the striker has come to rest, m."""
+        return float(self._front_at(np.asarray(0.0)))
+
+    @property
+    def stop_distance(self) -> float:
+        """Displacement of the striker when it has come to rest, m."""
+        return float(self._displacement_at(np.asarray(0.0)))
+
+    @cached_property
+    def end_time(self) -> float:
+        """When the front reaches the back, s; infinite if it never does."""
+        if self.stop_front <= self.length:
+            return math.inf
+        last = bisect(lambda v: self._front_at(v) < self.length, 0.0, self.impact_velocity)
+        return float(self._time_at(last))
+
+    def history(self, t: ArrayLike) -> FrontHistory:
+        """Displacement, velocity, front and stresses at times t (s)."""
+        t = times(t, self.end_time, "then the front reaches the back")
+        velocity = bisect(lambda v: self._time_at(v) < t, np.zeros(t.shape), self.impact_velocity)
+        velocity = np.where(t >= self.stop_time, 0.0, np.where(t == 0.0, self.impact_velocity, velocity))
+        front = self._front_at(velocity)
+        stress = np.where(t > self.stop_time, np.nan, self.foam.shock_stress(velocity))
+        left = stress * self.mass / (self.mass + self.foam.density * front)
+        return FrontHistory(self._displacement_at(velocity), velocity, front, stress, left)
+
+    def jumps(self, t: float) -> list[Jump]:
+        """The front at time t (s); none once the striker is at rest."""
+        history = self.history(t)
+        return [] if t >= self.stop_time else [self.foam.jump(float(history.velocity), float(history.front))]
+
+    def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
+        """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""
+        coordinate = coordinates(coordinate, self.length)
+        now, foam = self.history(t), self.foam
+        crushed = coordinate < now.front
+        passed = np.where(crushed, coordinate, 0.0)
+        crossing = bisect(lambda v: self._front_at(v) < passed, np.zeros(passed.shape), self.impact_velocity)
+        strain = np.where(crushed, foam.strain(crossing), 0.0)
+        share = (self.mass + foam.density * passed) / (self.mass + foam.density * now.front)
+        stress = np.where(crushed, now.front_stress * share, foam.plateau_stress)
+        return Fields(
+            np.where(crushed, now.velocity, 0.0),
+            np.where(np.asarray(t) > self.stop_time, np.nan, stress),
+            strain,
+            foam.density / (1.0 - strain),
+            np.where(crushed, foam.absorbed_energy(crossing), 0.0),
+        )
+
+    def _moving_mass(self, velocity: Array) -> Array:
+        """M + rho0 X when the striker has slowed down to `velocity`."""
+        ratio = self.foam.shock_stress(self.impact_velocity) / self.foam.shock_stress(velocity)
+        drag = 0.5 * self.foam.density * self.foam.slowest_front * self._inverse_integral(velocity)
+        return self.mass * np.sqrt(ratio) * np.exp(drag)
+
+    def _inverse_integral(self, velocity: Array) -> Array:
+        """Integral of 1/shock_stress from `velocity` to the impact velocity."""
+        foam = self.foam
+        middle, half = 0.5 * foam.slowest_front, self.impact_velocity - velocity
+        square = foam.plateau_stress / foam.density - middle**2
+        # atan or atanh of the difference in one fraction, so that nothing cancels where the discriminant vanishes
+        base = square + (velocity + middle) * (self.impact_velocity + middle)
+        root = math.sqrt(abs(square))
+        if root < 1e-9 * middle:
+            return half / (base * foam.density)
+        inverse = np.arctan2(root * half, base) if square > 0.0 else np.arctanh(root * half / base)
+        return inverse / (root * foam.density)
+
+    def _front_at(self, velocity: Array) -> Array:
+        return (self._moving_mass(velocity) - self.mass) / self.foam.density
+
+    def _time_at(self, velocity: Array) -> Array:
+        momentum = self.mass * self.impact_velocity - self._moving_mass(velocity) * velocity
+        return momentum / self.foam.plateau_stress
+
+    def _displacement_at(self, velocity: Array) -> Array:
+        """Integral of v m/shock_stress over v; Gauss, since the integrand is analytic."""
+        velocity = np.asarray(velocity, dtype=float)[..., None]
+        half = 0.5 * (self.impact_velocity - velocity)
+        at = velocity + half * (_NODES + 1.0)
+        return np.sum(half * _WEIGHTS * at * self._moving_mass(at) / self.foam.shock_stress(at), axis=-1)
