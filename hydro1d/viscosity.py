@@ -10,14 +10,14 @@ from hydro1d.parameters import Component, not_negative
 class Viscosity(Component):
     """q = ρ0 Δv (c₂ Δv/room + c₁ c) in compression, Δv the velocity jump over the zone.
 
-    c = √(loading tangent/ρ0); room = 1 − ε, so that ρ0/room is the current density, or what is left before a law locks.
-    Foam unloads on a steep line and so keeps every overshoot: c₁ is chosen to damp the approach to the final state (each
-    zone is a mass on the locking spring; c₁ = 2 damps it critically). ``kind = "none"`` gives the mass–spring chain.
+    c = √(loading tangent/ρ0); room is the strain that is left to the zone, 1 − ε for a material that does not lock (then
+    ρ0/room is the current density), see `Foam.room`. Foam unloads on a steep line and so keeps every overshoot: each zone is a
+    mass on the spring of its locked state, and c₁ = 2 damps it critically. ``kind = "none"`` gives the mass–spring chain.
     """
 
     kind: Literal["standard", "none"] = "standard"
-    linear: float = not_negative("1", "coefficient c₁", default=3.0)
-    quadratic: float = not_negative("1", "coefficient c₂", default=1.0)
+    linear: float = not_negative("1", "coefficient c₁", default=2.0)
+    quadratic: float = not_negative("1", "coefficient c₂", default=2.0)
 
     def coefficients(self) -> tuple[float, float]:
         """(c₁, c₂) as the solver uses them."""

@@ -81,7 +81,8 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             left, right = velocity[i] - velocity[i + 1], velocity[i + 2] - velocity[i + 3]
             shared = max(min(min(0.5 * (left + right), 2.0 * min(left, right)), jump), 0.0)
             closing = max(jump, 0.0) - (shared if smooth else 0.0)
-            speed = linear * math.sqrt(tangent * per_density) + quadratic * closing / law.room(strain)
+            crowding = quadratic * closing / law.room(strain, closing)
+            speed = linear * math.sqrt(tangent * per_density) + crowding
             viscosity = density * closing * speed
 
             state[i] = largest
@@ -89,7 +90,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             force[i] = stress + viscosity
             power = accumulate(power, viscosity * jump)
             top_stiffness = max(top_stiffness, order(stiffness))
-            top_speed = max(top_speed, order(speed + quadratic * closing / law.room(strain)))
+            top_speed = max(top_speed, order(speed + crowding))
             top_stress = max(top_stress, order(stress))
             top_strain = max(top_strain, order(strain))
         out[STIFFNESS] = unorder(top_stiffness) * per_density

@@ -13,10 +13,6 @@ class LinearLocking(PlateauFoam):
         """L over, and L."""
         return self.locking_slope * over, self.locking_slope
 
-    def room(self, strain: float) -> float:
-        """Strain to densification and the little that a plateau stress adds to it: a stiff branch stops a zone at εD."""
-        return max(self.densification_strain - strain, 0.0) + self.plateau_stress / self.locking_slope
-
     @derived
     def locking_slope(self) -> float:
         """Slope L of the densified branch, Pa."""

@@ -47,8 +47,11 @@ class Law(Component):
         """
         raise NotImplementedError
 
-    def room(self, strain: float) -> float:
-        """Strain left before the material locks; the quadratic viscosity grows as its inverse (ρ/ρ0 for most laws)."""
+    def room(self, strain: float, closing: float) -> float:
+        """Strain left to a zone that closes with ``closing`` (m/s) before it locks.
+
+        The quadratic viscosity grows as its inverse, which is ρ/ρ0 for a law that does not lock.
+        """
         return 1.0 - strain
 
     @derived
@@ -119,6 +122,40 @@ class Foam(Law):
         """Zero where the foam bears no tension."""
         return -math.inf if self.tension else 0.0
 
+    def room(self, strain: float, closing: float) -> float:
+        """Strain to densification and what a zone that closes so fast needs beyond it.
+
+        The slower the zone, the less: a weak front ends just past densification, where the curve is still flat and would not
+        stop it before it is crushed too far, which unloading makes final. In the limit of slow closing the quadratic term
+        is a linear one with the speed of waves on the secant of the hardening.
+        """
+        beyond = min(self.hardening_strain, closing * self.hardening_slowness + 1e-30)
+        return min(1.0 - strain, max(self.densification - strain, 0.0) + beyond)
+
+    @derived
+    def hardening_strain(self) -> float:
+        """Strain from densification to where the loading stress is twice the yield stress."""
+        return self.strain_at(2.0) - self.densification
+
+    @derived
+    def hardening_slowness(self) -> float:
+        """Inverse speed (s/m) of a wave on the secant of the hardening, √(ρ0 hardening_strain/yield stress)."""
+        return math.sqrt(self.density * self.hardening_strain / self.loading(self.yield_strain)[0])
+
+    @derived
+    def densification(self) -> float:
+        """Strain at which the loading stress rises from the plateau: by a twentieth, where the law has no such strain."""
+        return self.strain_at(1.05)
+
+    def strain_at(self, ratio: float) -> float:
+        """Smallest strain, at most 1, at which the loading stress is ``ratio`` > 1 times the yield stress, by bisection."""
+        low, high = min(self.yield_strain, 1.0), 1.0
+        stress = ratio * self.loading(low)[0]
+        while high - low > 1e-12:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self.loading(middle)[0] < stress else (low, middle)
+        return high
+
     @derived
     def yield_strain(self) -> float:
         """Strain at which the loading curve leaves the elastic line, found by bisection."""
@@ -128,7 +165,7 @@ class Foam(Law):
             return abs(self.loading(strain)[0] - self.modulus * strain) <= 1e-9 * self.modulus * strain
 
         if is_elastic(math.nextafter(1.0, 0.0)):
-            return math.inf
+            return 1.0
         while high - low > 1e-15:
             middle = 0.5 * (low + high)
             low, high = (middle, high) if is_elastic(middle) else (low, middle)
@@ -171,3 +208,8 @@ class PlateauFoam(Foam):
     def yield_strain(self) -> float:
         """σP/E."""
         return self.plateau_stress / self.modulus
+
+    @derived
+    def densification(self) -> float:
+        """εD."""
+        return self.densification_strain

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from hydro1d.laws.base import Foam
-from hydro1d.parameters import positive
+from hydro1d.parameters import derived, positive
 
 
 class RPH(Foam):
-    """σ = min(E ε, σ0 + C ε/(1 − ε)²): no densification strain, hardening from the first crush on.
+    """σ = min(E ε, σ0 + C ε/(1 − ε)²) up to yield, the second beyond: no densification strain, hardening from the first.
 
     The source's foam is rigid up to its plateau stress σ0, the limit E → ∞.
     """
@@ -17,9 +19,18 @@ class RPH(Foam):
     hardening: float = positive("Pa", "strain hardening parameter C")
 
     def loading(self, strain: float) -> tuple[float, float]:
-        """The lower of the elastic line and the hardening curve, and its slope."""
+        """The elastic line up to where it first meets the hardening curve, that curve beyond."""
         inverse = 1.0 / (1.0 - strain)
         scale = self.hardening * inverse * inverse
-        crush = self.plateau_stress + scale * strain
-        line = self.modulus * strain
-        return min(line, crush), (self.modulus if line <= crush else scale * (1.0 + strain) * inverse)
+        elastic = strain <= self.yield_strain
+        stress = self.modulus * strain if elastic else self.plateau_stress + scale * strain
+        return stress, (self.modulus if elastic else scale * (1.0 + strain) * inverse)
+
+    @derived
+    def yield_strain(self) -> float:
+        """First root of E ε = σ0 + C ε/(1 − ε)²; 1 where the line stays below the curve."""
+        # E ε (1 − ε)² − σ0 (1 − ε)² − C ε = 0, a cubic in ε
+        e, s, c = self.modulus, self.plateau_stress, self.hardening
+        roots = np.roots([e, -2.0 * e - s, e + 2.0 * s - c, -s])
+        real = sorted(root.real for root in roots if abs(root.imag) < 1e-12 and 0.0 < root.real < 1.0)
+        return float(real[0]) if real else 1.0

@@ -35,7 +35,7 @@ class Table(Foam):
 
     def loading(self, strain: float) -> tuple[float, float]:
         """The lower of elastic line and curve, and its slope; the segment by bisection."""
-        low, high = 0, self.segments
+        low, high = 0, int(self.segments)
         while high - low > 1:
             middle = (low + high) // 2
             if strain >= self.strains[middle]:
