@@ -49,16 +49,15 @@ def read_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:
 
     source = FileSource(path, check_schema=False)
     names = source.state_names()
-    if not names:
+    if not names or "checkpoint_time" not in source.attributes:
         raise FileProblem(f"{path} is a result, not a checkpoint: it holds no state to start from")
     arrays = {name: source.array(f"state/{name}") for name in names}
     attributes = source.attributes
-    times = source.array("time") if "time" in source.names else np.empty(0)
     return Checkpoint(
         path=Path(os.path.realpath(path)),
         arrays=arrays,
-        cycle=int(arrays["cycle"]) if "cycle" in arrays else int(attributes.get("cycles", 0)),
-        time=float(arrays["time"]) if "time" in arrays else float(times[-1]) if len(times) else 0.0,
+        cycle=int(attributes["cycles"]),
+        time=float(attributes["checkpoint_time"]),
         deck_text=source.deck_text,
         resolved=source.deck,
         law_hashes={

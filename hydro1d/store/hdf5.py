@@ -5,6 +5,7 @@ The low-level interface of h5py is used because a file has some fifty datasets: 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -20,6 +21,7 @@ NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable. %9d"
 
 _STRING = h5t.py_create(h5py.string_dtype(), logical=True)  # in the file
 _OBJECT = h5t.py_create(h5py.string_dtype())  # in memory
+_numbers = itertools.count()
 _SCALAR = h5s.create(h5s.SCALAR)
 
 
@@ -34,7 +36,8 @@ def new_image() -> h5py.File:
     access = h5p.create(h5p.FILE_ACCESS)
     access.set_fapl_core(1 << 20, False)
     access.set_libver_bounds(h5py.h5f.LIBVER_V18, h5py.h5f.LIBVER_V110)
-    identity = h5py.h5f.create(b"hydro1d", h5py.h5f.ACC_TRUNC, _creation_list(h5p.FILE_CREATE), access)
+    name = f"hydro1d-{next(_numbers)}".encode()  # the library knows even files in memory by name
+    identity = h5py.h5f.create(name, h5py.h5f.ACC_TRUNC, _creation_list(h5p.FILE_CREATE), access)
     return h5py.File(identity)
 
 

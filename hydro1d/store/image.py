@@ -17,9 +17,10 @@ from h5py import h5d
 
 import hydro1d
 from hydro1d.store import hdf5
+from hydro1d.store.deflate import LEVEL
 from hydro1d.store.files import Temporary
 from hydro1d.store.layout import MAXIMA, SCHEMA_VERSION, STATIC, Field, Layout
-from hydro1d.store.records import LEVEL, Block, Table
+from hydro1d.store.records import Block, Table
 from hydro1d.store.seal import make_seal
 
 CONVENTIONS = "CF-1.11"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -42,6 +42,21 @@ class Layout:
     history: tuple[Variable, ...] = ()
     probe_coordinate: np.ndarray = field(default_factory=lambda: np.empty(0))
     profiles: int | None = None
+
+    @classmethod
+    def of(cls, column: Any) -> Layout:
+        """The layout of a `Column`."""
+        return cls(
+            node_coordinate=column.node_coordinate,
+            zone_coordinate=column.zone_coordinate,
+            zone_mass=column.zone_mass,
+            zone_layer=column.zone_layer,
+            layer_name=tuple(column.layer_name),
+            zone_history=tuple(column.zone_history),
+            history=tuple(column.history_variables),
+            probe_coordinate=np.asarray(column.probes, dtype=np.float64),
+            profiles=len(column.profile_times) or None,
+        )
 
     @property
     def zones(self) -> int:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from hydro1d.store.deflate import deflate
 from hydro1d.store.layout import Field
 
-LEVEL = 1  # of gzip; measured on the main case: level 4 takes 1.4 times as long for 3 % less
 _CHUNK = 65536  # values in a chunk, 512 KB: profiles and time series are both read at a fair speed
 _LONGEST = 16384  # rows in a chunk
 
@@ -123,13 +123,6 @@ class Table:
             piece[:, : part.shape[1]] = part
             pieces.append(deflate(piece))
         return pieces
-
-
-def deflate(values: np.ndarray) -> bytes:
-    """HDF5's filters shuffle and gzip, applied to float64 values of one chunk."""
-    shuffled = np.ascontiguousarray(np.ascontiguousarray(values).reshape(-1).view(np.uint8).reshape(-1, 8).T)
-    compressor = zlib.compressobj(LEVEL, zlib.DEFLATED, zlib.MAX_WBITS, 9)
-    return compressor.compress(shuffled) + compressor.flush()
 
 
 def compress_all(

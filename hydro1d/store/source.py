@@ -58,13 +58,13 @@ class FileSource:
         import h5py
 
         with explained("read", self.name):
-            if _identity(self.path) != self._identity:
-                raise FileProblem(f"{self.name} was replaced while it was being read; open it again")
             try:
                 file = h5py.File(self.path, "r", locking=False)
             except OSError as error:
                 raise FileProblem(f"cannot read {self.name}: {_not_hdf5(self.path, error)}") from error
             with file:
+                if _identity(file.id.get_vfd_handle()) != self._identity:
+                    raise FileProblem(f"{self.name} was replaced since it was opened; open it again")
                 yield file
 
     def _text(self, file: h5py.File, path: str) -> str:
@@ -141,7 +141,7 @@ class FileSource:
             return [name for name in file["state"] if "crc32" in file["state"][name].attrs]
 
 
-def _identity(path: Path) -> tuple[int, int, int, int]:
+def _identity(path: Path | int) -> tuple[int, int, int, int]:
     status = os.stat(path)
     return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 

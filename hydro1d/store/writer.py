@@ -105,9 +105,9 @@ class Hdf5Sink(Recorder):
     def checkpoint(self, state: Any) -> None:
         """Write `NAME.checkpoint-<cycle>.h5`: all records and `state.arrays()`; keeps the last two of this run."""
         arrays = {name: np.asarray(value) for name, value in state.arrays().items()}
-        cycle = int(arrays["cycle"]) if "cycle" in arrays else int(state.cycle)
-        target = files.sibling(self.path, f"checkpoint-{cycle}")
-        self._publish(target, "running", {"cycles": cycle}, arrays)
+        target = files.sibling(self.path, f"checkpoint-{int(state.cycle)}")
+        attributes = {"cycles": int(state.cycle), "checkpoint_time": float(state.time)}
+        self._publish(target, "running", attributes, arrays)
         self._checkpoints = [known for known in self._checkpoints if known != target] + [target]
         for old in self._checkpoints[:-KEPT_CHECKPOINTS]:
             with contextlib.suppress(OSError):

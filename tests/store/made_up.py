@@ -14,6 +14,7 @@ DECK_TEXT = 'title = "Made up – σ"\n[time]\nend = "8 ms"\n'
 RESOLVED = {
     "title": "Made up – σ",
     "material": {"foam": {"law": "epph", "modulus": 22e6}},
+    "left": {"type": "pressure"},
     "time": {"end": 0.008, "cfl": 0.5},
     "output": {"profiles": [0.0, 0.008], "history": 1},
 }
@@ -36,10 +37,14 @@ class State:
     position: np.ndarray
     contact: bool = True
 
+    @property
+    def time(self) -> float:
+        return self.cycle * 1e-6
+
     def arrays(self) -> dict[str, Any]:
         return {
-            "cycle": np.int64(self.cycle),
-            "time": np.float64(self.cycle * 1e-6),
+            "ledger": np.array([self.time, self.cycle, np.nan, -0.0]),
+            "steps": np.int64(self.cycle),
             "position": self.position,
             "contact": np.array([self.contact, False]),
             "table": np.arange(6.0).reshape(2, 3) * np.pi,
