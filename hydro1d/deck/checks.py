@@ -57,8 +57,12 @@ def _check_layers(layers: Sequence[Layer], most_zones: int) -> list[Finding]:
             found.append(Finding(("layer", index), "zones of no size", None, "a larger thickness or fewer zones"))
         if not any(layer.law is law for law in checked):
             checked.append(layer.law)
-            found += check_law((("layer", index, "law")), layer.law)
+            found += check_law(_law_path(index, layer), layer.law)
     return found
+
+
+def _law_path(index: int, layer: Layer) -> tuple[str | int, ...]:
+    return ("material", layer.material, "law") if layer.material else ("layer", index, "law")
 
 
 def check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:

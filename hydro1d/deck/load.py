@@ -12,7 +12,16 @@ from pydantic import Field, ValidationError, field_validator
 from hydro1d.boundaries.base import Boundary
 from hydro1d.deck import overrides as overriding
 from hydro1d.deck.checks import cross_problems
-from hydro1d.deck.messages import MOST_FOUND, Finding, deck_error, findings_of, one_of, unknown_key, unknown_word
+from hydro1d.deck.messages import (
+    MOST_FOUND,
+    DeckProblems,
+    Finding,
+    deck_error,
+    findings_of,
+    one_of,
+    unknown_key,
+    unknown_word,
+)
 from hydro1d.deck.model import (
     LONGEST_NAME,
     LONGEST_TITLE,
@@ -65,8 +74,8 @@ def load_deck(
         raise _located(path, found, text, origins)
     try:
         return Deck(**parts, names=builder.names, text=text, path=path)
-    except DeckError as error:  # a check of the whole that the builder does not know
-        raise DeckError(f"{path or 'the deck'}: {error}", error.problems) from None
+    except DeckProblems as error:  # checks of the whole, which know no text
+        raise _located(path, error.findings, text, origins) from None
 
 
 def _located(path: Path | None, found: list[Finding], text: str, origins: dict[Location, str]) -> DeckError:

@@ -28,6 +28,12 @@ class Finding(NamedTuple):
     at_key: bool = False
 
 
+class DeckProblems(DeckError):
+    """A DeckError that still knows its findings, so that places in a text can be added."""
+
+    findings: list[Finding]
+
+
 def path_text(path: Location) -> str:
     """Return ``("layer", 1, "zones")`` as ``layer[1].zones``."""
     text = ""
@@ -155,10 +161,10 @@ def _finding(detail: Any, cls: type[BaseModel], raw: Mapping[str, Any], prefix: 
 
 def deck_error(
     source: Path | str | None,
-    findings: Iterable[Finding],
+    findings: list[Finding],
     place: Callable[[Finding], tuple[int, int] | None] = lambda finding: None,
     origin: Callable[[Location], str] = lambda path: "",
-) -> DeckError:
+) -> DeckProblems:
     """Return the exception with all findings, in the order of the text.
 
     ``place`` gives line and column of a finding; ``origin`` names the override that a value came from, if any.
@@ -171,8 +177,8 @@ def deck_error(
     problems.sort(key=lambda problem: (problem.line or 0, problem.column or 0))
     where = f"{source}: " if source else "the deck: "
     count = "1 problem" if len(problems) == 1 else f"{len(problems)} problems"
-    error = DeckError(where + count, problems[:MOST_SHOWN])
+    error = DeckProblems(where + count, problems[:MOST_SHOWN])
     if len(problems) > MOST_SHOWN:
         error.args = (f"{error}\n  … and {len(problems) - MOST_SHOWN} more",)
-    error.problems = problems
+    error.problems, error.findings = problems, findings
     return error

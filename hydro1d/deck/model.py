@@ -65,7 +65,7 @@ class Output(Component):
         json_schema_extra={"unit": "s"},
         description="how many profiles, evenly spaced from t = 0 to the end, or a list of rising times",
     )
-    history: int = Field(1, ge=1, le=10**9, description="a row of the history every so many cycles")
+    history: int = Field(10, ge=1, le=10**9, description="a row of the history every so many cycles")
     probes: tuple[float, ...] = Field(
         (), json_schema_extra={"unit": "m"}, max_length=MOST_PROBES, description="Lagrangian positions of the probes"
     )

@@ -1,5 +1,6 @@
 """Unit strings and tables."""
 
+import contextlib
 import math
 import subprocess
 import sys
@@ -17,8 +18,8 @@ from hydro1d.units import UnitError, convert, describe, parse_unit, shorten
 
 PRODUCTS = [
     "kg/m^3", "g/cm^3", "g/cm**3", "kg m^-3", "m/s", "km/s", "mm/ms", "mm/us", "kg/m^2", "J/kg", "kJ/kg", "s/m", "s/km",
-    "1/s", "1/ms", "m/s^2", "N/mm^2", "kN/m^2", "Pa*s", "kg/m/s", "kg/m s", "lb/ft^3", "lb/in^3", "ft/s", "in/s", "J/m^2",
-    "kg*m^2/s^2", "m^2/s^2", "MPa*ms",
+    "1/s", "1/ms", "m/s^2", "N/mm^2", "kN/m^2", "Pa*s", "kg/m/s", "kg/m s", "lb/ft^3", "lb/in^3", "ft/s", "in/s",
+    "J/m^2", "kg*m^2/s^2", "m^2/s^2", "MPa*ms",
 ]  # fmt: skip
 
 
@@ -136,10 +137,8 @@ def test_what_is_no_quantity_is_refused(value, unit, words):
 
 @given(st.text(max_size=120), st.sampled_from(["Pa", "1", "kg/m^3"]))
 def test_any_text_is_a_number_or_a_unit_error(text, unit):
-    try:
+    with contextlib.suppress(UnitError):
         assert math.isfinite(convert(text, unit))
-    except UnitError:
-        pass
 
 
 def test_pint_is_imported_only_for_rare_units():
