@@ -1,1 +1,60 @@
+"""hydro1d: a 1-D Lagrangian shock code for cellular materials under impact and blast.
+
+>>> import hydro1d
+>>> run = hydro1d.run("pulse_epph.toml")
+>>> run.history["peak_right_stress"][-1]
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from hydro1d.api import run
+    from hydro1d.boundaries.base import Boundary, End
+    from hydro1d.boundaries.pulses.base import Pulse
+    from hydro1d.deck import Deck, Layer, load_deck
+    from hydro1d.errors import BreakdownError, DeckError, FileProblem, Hydro1dError, Interrupted
+    from hydro1d.laws.base import Foam, Law, PlateauFoam
+    from hydro1d.parameters import above, at_least, derived, fraction, not_negative, number, pairs, positive
+    from hydro1d.store import Run, open_run
+
+# Modules are loaded when a name is first used: `hydro1d --help` and plotting need few of them.
+_HOME = {
+    "Boundary": "boundaries.base",
+    "BreakdownError": "errors",
+    "Deck": "deck",
+    "DeckError": "errors",
+    "End": "boundaries.base",
+    "FileProblem": "errors",
+    "Foam": "laws.base",
+    "Hydro1dError": "errors",
+    "Interrupted": "errors",
+    "Law": "laws.base",
+    "Layer": "deck",
+    "PlateauFoam": "laws.base",
+    "Pulse": "boundaries.pulses.base",
+    "Run": "store",
+    "above": "parameters",
+    "at_least": "parameters",
+    "derived": "parameters",
+    "fraction": "parameters",
+    "load_deck": "deck",
+    "not_negative": "parameters",
+    "number": "parameters",
+    "open_run": "store",
+    "pairs": "parameters",
+    "positive": "parameters",
+    "run": "api",
+}
+
+__all__ = [*_HOME, "__version__"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"hydro1d.{_HOME[name]}"), name)

@@ -10,7 +10,9 @@ from typing import Protocol
 
 import numpy as np
 
+from hydro1d.boundaries.base import Boundary
 from hydro1d.column import Column, initial_velocities
+from hydro1d.errors import DeckError
 from hydro1d.kernels import march
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.ends import MEMORY
@@ -18,6 +20,8 @@ from hydro1d.kernels.program import Program
 from hydro1d.state import State
 
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
+FEWEST_STEPS = 20  # a stretch keeps a copy of its start: not for every step of a huge column
+RETRIES = 3
 
 
 @dataclass(frozen=True)
@@ -93,7 +97,7 @@ def initial_state(column: Column, program: Program) -> State:
     velocity = initial_velocities(column)
     for side, (_, sign, boundary) in enumerate(column.ends):
         node = -side
-        speed, memory = boundary.start(sign * velocity[node], column.node_mass[node], sign)
+        speed, memory = _started(boundary, sign * velocity[node], column.node_mass[node], sign, column.ends[side][0])
         velocity[node] = sign * speed
         state.memory[side, : len(memory)] = memory
     state.velocity[1:-1] = velocity
@@ -102,6 +106,13 @@ def initial_state(column: Column, program: Program) -> State:
     kinetic = 0.5 * np.sum(column.node_mass * velocity**2)
     state.ledger[march.FIRST_ENERGY] = kinetic + np.sum(column.zone_mass * state.energy)
     return state
+
+
+def _started(boundary: Boundary, velocity: float, mass: float, sign: float, side: str) -> tuple:
+    try:
+        return boundary.start(velocity, mass, sign)
+    except ValueError as error:
+        raise DeckError(f"{side}: {error}") from error
 
 
 def _first_step(column: Column, program: Program, state: State) -> None:
@@ -135,13 +146,18 @@ def solve(
     checkpoints: CheckpointPlan | None = None,
     progress: Callable[[State], None] | None = None,
     program: Program | None = None,
+    asked_to_stop: Callable[[], bool] = lambda: False,
 ) -> Outcome:
-    """Run a column from its state (t = 0 unless given) to its end time, handing everything over to ``sink``."""
+    """Run a column from its state (t = 0 unless given) to its end time, handing everything over to ``sink``.
+
+    A stretch that breaks down is tried again from its start, up to three times, each with half the step of the one before.
+    Raises DeckError for a load that makes no sense on its end of the column.
+    """
     program = program or Program(column)
     set_ends(column, program)
     begun = state is not None
     state = state if state is not None else initial_state(column, program)
-    run = _Run(column, sink, state, program, checkpoints or CheckpointPlan(), progress)
+    run = _Run(column, sink, state, program, checkpoints or CheckpointPlan(), progress, asked_to_stop)
     if not begun:
         run.open()
     return run.to_end()
@@ -158,9 +174,10 @@ class _Run:
         program: Program,
         plan: CheckpointPlan,
         progress: Callable[[State], None] | None,
+        asked_to_stop: Callable[[], bool],
     ) -> None:
         self.column, self.sink, self.state, self.program = column, sink, state, program
-        self.plan, self.progress = plan, progress
+        self.plan, self.progress, self.asked_to_stop = plan, progress, asked_to_stop
         self.loop_seconds = 0.0
         self.saved_cycle, self.saved_time, self.saved_wall = state.cycle, state.time, time.monotonic()
         events = {*column.profile_times.tolist(), *column.corners, column.end_time}
@@ -178,6 +195,8 @@ class _Run:
         """Go from event to event."""
         for event in self.events:
             status = self.to_event(event)
+            if status == march.PAUSED:
+                return self.outcome("interrupted")
             if status != march.REACHED:
                 return self.broken(status)
             if event in self.profile_times:
@@ -185,14 +204,12 @@ class _Run:
         return self.outcome("complete")
 
     def to_event(self, event: float) -> int:
-        """Step to an event, looking up between calls."""
+        """Step to an event, looking up between stretches; PAUSED when asked to stop."""
         status = march.PAUSED
-        while status == march.PAUSED:
-            begun = time.perf_counter()
-            status = self.program.advance(
-                self.state, stop=event, steps=self.steps_per_call(), row_at_stop=event == self.column.end_time
-            )
-            self.loop_seconds += time.perf_counter() - begun
+        while status == march.PAUSED and not self.asked_to_stop():
+            status = self.stretch(event)
+            if status > march.PAUSED:
+                return status
             if self.state.ledger[march.ROWS] > 0:
                 self.sink.history(*self.program.recorded(self.state))
             if self.progress is not None:
@@ -200,18 +217,37 @@ class _Run:
             self.save_if_due()
         return status
 
+    def stretch(self, event: float) -> int:
+        """One call of the time loop, tried again with shorter steps if it breaks down."""
+        start = self.state.copy()
+        for attempt in range(RETRIES + 1):
+            self.state.ledger[march.CFL] = self.column.cfl * 0.5**attempt
+            self.state.ledger[march.NEXT_STEP] *= 0.5**attempt
+            begun = time.perf_counter()
+            status = self.program.advance(
+                self.state, stop=event, steps=self.steps_per_call(), row_at_stop=event == self.column.end_time
+            )
+            self.loop_seconds += time.perf_counter() - begun
+            if status <= march.PAUSED or attempt == RETRIES:
+                break
+            self.state.assign(start)
+        self.state.ledger[march.CFL] = self.column.cfl
+        return status
+
     def steps_per_call(self) -> int:
-        """So many that the user does not wait, and none beyond a checkpoint."""
-        steps = max(ZONE_STEPS_PER_CALL // self.column.zones, 1)
+        """So many that the user does not wait and the rows fit; stretches end at fixed cycles, so a restart meets them."""
+        length = max(ZONE_STEPS_PER_CALL // self.column.zones, FEWEST_STEPS)
+        length = min(length, self.program.row_capacity * self.column.history_every or length)
+        steps = length - self.state.cycle % length
         if self.plan.cycles is not None:
-            steps = min(steps, self.plan.cycles - (self.state.cycle - self.saved_cycle))
+            steps = min(steps, self.plan.cycles - self.state.cycle % self.plan.cycles)
         return steps
 
     def save_if_due(self) -> None:
         """Hand over a checkpoint when the plan asks for one."""
         plan, state, now = self.plan, self.state, time.monotonic()
         due = (
-            (plan.cycles is not None and state.cycle - self.saved_cycle >= plan.cycles)
+            (plan.cycles is not None and state.cycle % plan.cycles == 0 and state.cycle > self.saved_cycle)
             or (plan.time is not None and state.time - self.saved_time >= plan.time)
             or (plan.wall is not None and now - self.saved_wall >= plan.wall)
         )

@@ -41,6 +41,11 @@ class State:
         """An independent copy."""
         return State.from_arrays(self.arrays())
 
+    def assign(self, other: State) -> None:
+        """Take over the other's values, in place."""
+        for name, array in other.arrays().items():
+            getattr(self, name)[...] = array
+
     @property
     def time(self) -> float:
         """Time of the stresses, s."""

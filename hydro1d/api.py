@@ -1,0 +1,126 @@
+"""The public way to run a deck: ``run(deck) -> Run``, in memory or into a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hydro1d.column import Column, build_column
+from hydro1d.deck import Deck, load_deck
+from hydro1d.errors import BreakdownError, Interrupted
+from hydro1d.interrupt import interruptible
+from hydro1d.kernels.build import fingerprint
+from hydro1d.kernels.march import LIMITING_LAYER
+from hydro1d.laws.check import check_law
+from hydro1d.solver import CheckpointPlan, Outcome, solve
+from hydro1d.state import State
+
+if TYPE_CHECKING:
+    from hydro1d.store import Run
+
+
+def column_of(deck: Deck) -> Column:
+    """The column that a deck describes."""
+    return build_column(
+        deck.layers,
+        deck.left,
+        deck.right,
+        end=deck.time.end,
+        cfl=deck.time.cfl,
+        viscosity=deck.viscosity,
+        profile_times=deck.output.profiles if isinstance(deck.output.profiles, tuple) else (),
+        history=deck.output.history,
+        probes=deck.output.probes,
+    )
+
+
+def run(
+    deck: Deck | str | Path,
+    output: str | Path | None = None,
+    *,
+    restart: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> Run:
+    """Run a deck (a `Deck`, a file, or TOML text) and return its `Run`.
+
+    With ``output`` the result is an HDF5 file, written whole or not at all; without, it stays in memory. ``restart`` names a
+    checkpoint to go on from; ``progress`` is told the share of the simulated time that is done.
+
+    Raises DeckError (bad deck), FileProblem (a file), BreakdownError (the calculation; a diagnostic file lies beside the
+    output), Interrupted (Ctrl-C or SIGTERM; a checkpoint lies beside the output).
+    """
+    deck = deck if isinstance(deck, Deck) else load_deck(deck)
+    for layer in deck.layers:
+        check_law(layer.law)
+    column = column_of(deck)
+    plan = _plan(deck)
+    if output is None:
+        return _in_memory(deck, column, progress)
+    from hydro1d.store import Hdf5Sink, Layout
+
+    state, checkpoint = None, None
+    if restart is not None:
+        checkpoint, state = _read_restart(deck, Path(restart), force)
+    arguments = (Path(output), Layout.of(column), deck.text, deck.resolved(), _attributes(deck))
+    sink = Hdf5Sink.resume(checkpoint, *arguments) if checkpoint is not None else Hdf5Sink(*arguments)
+    with sink, interruptible() as asked:
+        outcome = solve(column, sink, state, checkpoints=plan, progress=_share(column, progress), asked_to_stop=asked)
+        if outcome.status == "interrupted" and outcome.state is not None:
+            sink.checkpoint(outcome.state)
+        written = sink.finish(outcome.status, outcome.cycles, outcome.wall_seconds, **_closing(column, outcome))
+    _raise_unless_complete(outcome, written)
+    from hydro1d.store import open_run
+
+    return open_run(written)
+
+
+def _in_memory(deck: Deck, column: Column, progress: Callable[[float], None] | None) -> Run:
+    from hydro1d.store import Layout, MemorySink
+
+    sink = MemorySink(Layout.of(column), deck.text, deck.resolved(), _attributes(deck))
+    outcome = solve(column, sink, progress=_share(column, progress))
+    _raise_unless_complete(outcome, None)
+    return sink.finish(outcome.status, outcome.cycles, outcome.wall_seconds, **_closing(column, outcome))
+
+
+def _plan(deck: Deck) -> CheckpointPlan:
+    checkpoint = deck.checkpoint
+    return CheckpointPlan(checkpoint.cycles, checkpoint.time, checkpoint.wall) if checkpoint else CheckpointPlan()
+
+
+def _attributes(deck: Deck) -> dict[str, Any]:
+    """Root attributes: the peak of the applied pressure and the hash of every law's code."""
+    hashes = {f"law_hash_{layer.material}": fingerprint(type(layer.law)) for layer in deck.layers}
+    return {**hashes, "peak_applied_pressure": max(deck.left.peak(), deck.right.peak())}
+
+
+def _closing(column: Column, outcome: Outcome) -> dict[str, Any]:
+    """Root attributes known at the end."""
+    if outcome.state is None:
+        return {}
+    layer = int(outcome.state.ledger[LIMITING_LAYER])
+    return {"limiting_layer": column.layer_name[layer], "message": outcome.message}
+
+
+def _read_restart(deck: Deck, path: Path, force: bool) -> tuple[Any, State]:
+    from hydro1d.store import read_checkpoint, verify_checkpoint
+
+    checkpoint = read_checkpoint(path)
+    hashes = {layer.material: fingerprint(type(layer.law)) for layer in deck.layers}
+    verify_checkpoint(checkpoint, deck.resolved(), hashes, force)
+    return checkpoint, State.from_arrays(checkpoint.arrays)
+
+
+def _share(column: Column, progress: Callable[[float], None] | None) -> Callable[[State], None] | None:
+    return None if progress is None else lambda state: progress(min(state.time / column.end_time, 1.0))
+
+
+def _raise_unless_complete(outcome: Outcome, written: Path | None) -> None:
+    where = f"\n  what there is: {written}" if written is not None else ""
+    if outcome.status == "failed":
+        zone = -1 if outcome.zone is None else outcome.zone
+        raise BreakdownError(outcome.message + where, zone, outcome.time, outcome.cycles)
+    if outcome.status == "interrupted":
+        raise Interrupted(f"interrupted at t = {outcome.time:.6g} s, cycle {outcome.cycles}; checkpoint written{where}")

@@ -1,0 +1,49 @@
+"""One look at a law in plain Python before anything is compiled, so that the first error a user meets is readable."""
+
+from __future__ import annotations
+
+import math
+
+from hydro1d.errors import DeckError
+from hydro1d.laws.base import Law
+
+_STRAINS = (0.0, 1e-6, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9)
+
+
+def check_law(law: Law) -> None:
+    """Load and unload a material point. Raises DeckError, in one sentence, for a law that cannot be run.
+
+    Stress and moduli must be finite, moduli not negative, the stiffness positive where it starts, the answer the same when
+    asked twice, and the history a tuple of as many floats as the law declares.
+    """
+    try:
+        history = tuple(float(value) for value in type(law).history.values())
+        largest, energy = 0.0, float(law.initial_energy)
+        for strain in (*_STRAINS, *reversed(_STRAINS), -1e-3):
+            largest = max(largest, strain)
+            answer = law.point(strain, largest, 0.0, energy, history)
+            _check_answer(law, strain, answer, len(history))
+            if law.point(strain, largest, 0.0, energy, answer[4]) != answer and not history:
+                raise ValueError(f"answers differently when asked twice at strain {strain:g}")
+            history = answer[4]
+    except DeckError:
+        raise
+    except Exception as error:
+        raise DeckError(f"law {type(law).__name__}: {_reason(error)}") from error
+
+
+def _reason(error: Exception) -> str:
+    return str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+
+
+def _check_answer(law: Law, strain: float, answer: tuple, remembered: int) -> None:
+    if not isinstance(answer, tuple) or len(answer) != 5:
+        raise ValueError("point must return (stress, tangent, stiffness, smooth, history)")
+    stress, tangent, stiffness, _, history = answer
+    for name, value in (("stress", stress), ("tangent", tangent), ("stiffness", stiffness)):
+        if not math.isfinite(value):
+            raise ValueError(f"{name} is {value} at strain {strain:g}; it must be finite")
+    if tangent < 0.0 or stiffness < 0.0 or (strain == 0.0 and stiffness == 0.0):
+        raise ValueError(f"tangent {tangent:g} and stiffness {stiffness:g} Pa at strain {strain:g} must not be negative")
+    if not isinstance(history, tuple) or len(history) != remembered:
+        raise ValueError(f"history must be a tuple of {remembered} numbers, as the class declares")
