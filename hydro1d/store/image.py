@@ -143,12 +143,11 @@ def _deck(file: h5py.File, content: Content) -> None:
 
 
 def _checked(dataset: Any, array: np.ndarray) -> None:
-    hdf5.set_attribute(dataset, "crc32", np.uint32(zlib.crc32(np.ascontiguousarray(array).reshape(-1).view(np.uint8))))
+    plain = np.ascontiguousarray(array).reshape(-1).view(np.uint8).data
+    hdf5.set_attribute(dataset, "crc32", np.uint32(zlib.crc32(plain)))
 
 
-def _finish(
-    file: h5py.File, content: Content, tables: list[Table], tails: Tails, more: More
-) -> list[tuple[int, int]]:
+def _finish(file: h5py.File, content: Content, tables: list[Table], tails: Tails, more: More) -> list[tuple[int, int]]:
     """Write what comes last; returns the byte ranges of all arrays that carry a checksum of their own."""
     paths = list(content.layout.static())
     for table, (tail, sums) in zip(tables, tails, strict=True):

@@ -14,8 +14,13 @@ from hydro1d.store.records import Table
 class Frame(Protocol):
     """A profile as the solver hands it over: `fields` over nodes (zones + 1,) and zones (zones,), SI."""
 
-    time: float
-    fields: dict[str, np.ndarray]
+    @property
+    def time(self) -> float:
+        """Time, s."""
+
+    @property
+    def fields(self) -> dict[str, np.ndarray]:
+        """Arrays by name."""
 
 
 class Recorder:

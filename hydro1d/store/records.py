@@ -31,6 +31,11 @@ class Block:
         return held + sum(len(piece) for pieces in self.pieces for piece in pieces)
 
 
+def _field(block: Block, index: int) -> np.ndarray:
+    assert block.values is not None, "a block is compressed once"
+    return block.values[index]
+
+
 class Table:
     """Fields that grow together, row by row: shape (fields, rows, *tail).
 
@@ -113,7 +118,7 @@ class Table:
 
     def compress(self, block: Block, index: int) -> list[bytes]:
         """Chunks of one field of a block as they stand in the file."""
-        values = block.values[index]  # type: ignore[index]
+        values = _field(block, index)
         if len(self.piece_columns()) == 1:
             return [deflate(values)]
         pieces = []
@@ -153,11 +158,11 @@ def compress_all(
 def _job(table: Table, index: int, blocks: list[Block], tail: Block | None, sums: list[int]) -> Callable[[], None]:
     def work() -> None:
         for block in blocks:
-            table.crc[index] = zlib.crc32(block.values[index], table.crc[index])  # type: ignore[index]
+            table.crc[index] = zlib.crc32(_field(block, index).data, table.crc[index])
             block.pieces[index] = table.compress(block, index)
         sums[index] = table.crc[index]
         if tail is not None:
-            sums[index] = zlib.crc32(tail.values[index, : tail.rows], sums[index])  # type: ignore[index]
+            sums[index] = zlib.crc32(_field(tail, index)[: tail.rows].data, sums[index])
             tail.pieces[index] = table.compress(tail, index)
 
     return work

@@ -166,7 +166,8 @@ class Run:
         return xarray.DataTree.from_dict(tree)
 
     def _variables(self, group: Quantities) -> tuple[dict[str, Any], dict[str, Any]]:
-        data, coordinates = {}, {}
+        data: dict[str, Any] = {}
+        coordinates: dict[str, Any] = {}
         for name in group:
             field = group.describe(name)
             entry = (field.dimensions, group[name].copy(), {"units": field.units, "long_name": field.long_name})

@@ -103,7 +103,7 @@ class FileSource:
             if "crc32" not in dataset.attrs:
                 raise FileProblem(f"{self.name} is damaged: {path} has no checksum")
             plain = np.ascontiguousarray(values).reshape(-1).view(np.uint8)
-            if zlib.crc32(plain) != int(dataset.attrs["crc32"]):
+            if zlib.crc32(plain.data) != int(dataset.attrs["crc32"]):
                 raise FileProblem(f"{self.name} is damaged: the values of {path} do not fit their checksum")
             return values.astype(bool) if "truth" in dataset.attrs else values
 
@@ -117,7 +117,7 @@ class FileSource:
                     raise FileProblem(f"{self.name} is damaged: {path} is not an array with a checksum")
                 total, expected = dataset.shape[0], int(dataset.attrs["crc32"])
                 values = dataset[start : start + step]
-            crc = zlib.crc32(values.reshape(-1).view(np.uint8), crc)
+            crc = zlib.crc32(values.reshape(-1).view(np.uint8).data, crc)
             start += step
             if start >= total and crc != expected:
                 raise FileProblem(f"{self.name} is damaged: the values of {path} do not fit their checksum")
@@ -131,7 +131,8 @@ class FileSource:
             name = path.rpartition("/")[2]
             scales = [list(axis.values()) for axis in dataset.dims]
             dimensions = tuple(found[0].name.rpartition("/")[2] if found else name for found in scales)
-            return Field(path, dimensions, str(dataset.attrs.get("units", "1")), str(dataset.attrs.get("long_name", "")))
+            units, long_name = (str(dataset.attrs.get(key, "")) for key in ("units", "long_name"))
+            return Field(path, dimensions, units, long_name)
 
     def state_names(self) -> list[str]:
         """Names of the arrays of the solver's state."""

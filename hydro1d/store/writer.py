@@ -24,8 +24,8 @@ from hydro1d.errors import FileProblem
 from hydro1d.store import files, image
 from hydro1d.store.checkpoint import Checkpoint, replay
 from hydro1d.store.layout import MAXIMA, Layout
-from hydro1d.store.records import compress_all
 from hydro1d.store.recorder import Recorder
+from hydro1d.store.records import compress_all
 
 KEPT_CHECKPOINTS = 2
 _OVERHEAD = 10.0  # a partial file is written at most every so many times what the last one took

@@ -14,7 +14,9 @@ from hydro1d.store import Hdf5Sink, open_run, read_checkpoint, verify_checkpoint
 
 
 def new(path, layout=None, **options):
-    return Hdf5Sink(path, layout or made_up.layout(), made_up.DECK_TEXT, made_up.RESOLVED, made_up.ATTRIBUTES, **options)
+    return Hdf5Sink(
+        path, layout or made_up.layout(), made_up.DECK_TEXT, made_up.RESOLVED, made_up.ATTRIBUTES, **options
+    )
 
 
 def state(cycle):
@@ -31,9 +33,7 @@ def checkpoint(tmp_path):
 
 def resume(path, read, layout=None, **options):
     layout = layout or made_up.layout()
-    return Hdf5Sink.resume(
-        read, path, layout, made_up.DECK_TEXT, made_up.RESOLVED, made_up.ATTRIBUTES, **options
-    )
+    return Hdf5Sink.resume(read, path, layout, made_up.DECK_TEXT, made_up.RESOLVED, made_up.ATTRIBUTES, **options)
 
 
 def test_state_is_exact(checkpoint):
@@ -118,7 +118,13 @@ def changed(path, value):
 
 @pytest.mark.parametrize(
     "path, value",
-    [("time.end", 0.016), ("title", "x"), ("output.profiles", [0.0]), ("output.probes", [1.0]), ("checkpoint.cycles", 5)],
+    [
+        ("time.end", 0.016),
+        ("title", "x"),
+        ("output.profiles", [0.0]),
+        ("output.probes", [1.0]),
+        ("checkpoint.cycles", 5),
+    ],
 )
 def test_what_may_change(checkpoint, path, value):
     verify_checkpoint(read_checkpoint(checkpoint), changed(path, value), {"foam": "abc123"})

@@ -38,7 +38,8 @@ def everything(name):
     for group in (run, run.history, run.probes):
         for key in group:
             array = group[key]
-            found[str(id(group) == id(run)) + key + str(array.shape)] = array.tolist() if array.dtype == object else array.tobytes()
+            values = array.tolist() if array.dtype == object else array.tobytes()
+            found[key] = (*found.get(key, ()), array.shape, values)
             found[key + " field"] = found.get(key + " field", ()) + (group.describe(key),)
     return found
 
@@ -185,7 +186,9 @@ def test_links_and_foreign_storage(edited, tmp_path):
     refused(edited(replace("stress", lambda f: f.__setitem__("stress", external))), "is a link to elsewhere")
     refused(edited(replace("stress", lambda f: f.__setitem__("stress", h5py.SoftLink("/strain")))), "is a link")
     refused(
-        edited(replace("stress", lambda f: f.create_dataset("stress", (100,), "f8", external=[(tmp_path / "raw", 0, 800)]))),
+        edited(
+            replace("stress", lambda f: f.create_dataset("stress", (100,), "f8", external=[(tmp_path / "raw", 0, 800)]))
+        ),
         "from another file",
     )
     layout = h5py.VirtualLayout((3,), "f8")
@@ -211,7 +214,10 @@ def test_absurd_sizes(edited):
 def test_wrong_kinds(edited):
     refused(edited(replace("stress", lambda f: f.create_group("stress"))), "is not a dataset")
     refused(edited(replace("stress", lambda f: f.__setitem__("stress", np.array([1 + 2j])))), "has the type complex128")
-    refused(edited(replace("deck/resolved", lambda f: f.__setitem__("deck/resolved", "{"))), "cannot read .*delimiter|Expecting")
+    refused(
+        edited(replace("deck/resolved", lambda f: f.__setitem__("deck/resolved", "{"))),
+        "cannot read .*delimiter|Expecting",
+    )
     refused(edited(replace("deck/toml", lambda f: f.__setitem__("deck/toml", [1, 2]))), "toml is not a text")
     refused(edited(replace("history", lambda f: f.__setitem__("history", 1.0))), "history is not a group")
 

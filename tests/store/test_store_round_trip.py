@@ -104,7 +104,9 @@ def test_records_are_copied(tmp_path):
         frame.fields["stress"][:] = -1.0
         block[:], probes[:] = -1.0, -1.0
         run = open_run(sink.finish("complete", 1, 0.0))
-    assert (run["stress"] != -1.0).all() and (run.history["time"] != -1.0).all() and (run.probes["stress"] != -1.0).all()
+    assert (
+        (run["stress"] != -1.0).all() and (run.history["time"] != -1.0).all() and (run.probes["stress"] != -1.0).all()
+    )
 
 
 def test_chunks_suit_profiles_and_time_series(tmp_path):

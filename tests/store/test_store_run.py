@@ -43,7 +43,7 @@ def test_names(run):
     assert run["probes/stress"] is run.probes["stress"]
     assert run.history["time"] is run.history["history_time"] and "time" in run.history
     assert "stress" in run and "history/momentum" in run and "nonsense" not in run
-    assert list(run)[0] == "time" and "stress" in run.keys()
+    assert run.keys() == list(run) and run.keys()[0] == "time"
     assert run.describe("stress").units == "Pa" and run.describe("history/momentum").dimensions == ("history_time",)
     assert [layer.name for layer in run.layers] == ["foam", "Schaum – µ"]
     assert run["strain"][:, run.layers[1].zones].shape == (4, 25)
@@ -51,11 +51,11 @@ def test_names(run):
 
 
 def test_missing_quantity(run):
-    with pytest.raises(FileProblem, match=r"no quantity 'stres' in .*; did you mean 'stress'\? There is: time, position"):
+    with pytest.raises(FileProblem, match=r"no quantity 'stres' in .*; did you mean 'stress'\? There is: time, "):
         run["stres"]
-    with pytest.raises(FileProblem, match="no quantity 'x' in /history of .* There is: history_time, time_step"):
+    with pytest.raises(FileProblem, match=r"no quantity 'x' in /history of .* There is: history_time, time_step"):
         run.history["x"]
-    with pytest.raises(FileProblem, match="no quantity 'history/x'|no quantity 'x' in /history"):
+    with pytest.raises(FileProblem, match="no quantity 'x' in /history"):
         run["history/x"]
     with pytest.raises(FileProblem, match="no quantity 3"):
         run.history[3]
@@ -128,7 +128,7 @@ def test_schema_may_be_left_to_the_caller(tmp_path):
 def test_lazy_names():
     assert all(getattr(hydro1d.store, name) is not None for name in hydro1d.store.__all__)
     with pytest.raises(AttributeError):
-        hydro1d.store.nonsense  # noqa: B018
+        hydro1d.store.nonsense
     code = "import sys, hydro1d.store as s; s.MemorySink, s.Layout; assert 'h5py' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
 

@@ -24,7 +24,9 @@ def names(folder):
 
 
 def new(path, **options):
-    return Hdf5Sink(path, made_up.layout(profiles=16), made_up.DECK_TEXT, made_up.RESOLVED, made_up.ATTRIBUTES, **options)
+    return Hdf5Sink(
+        path, made_up.layout(profiles=16), made_up.DECK_TEXT, made_up.RESOLVED, made_up.ATTRIBUTES, **options
+    )
 
 
 def test_target_is_missing_or_ours(tmp_path):
