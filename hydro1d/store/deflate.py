@@ -30,7 +30,7 @@ def deflate(values: np.ndarray) -> bytes:
     parts += [
         b"\x01\x00\x00\xff\xff",
         zlib.adler32(planes.data).to_bytes(4, "big"),
-    ]  # an empty last block, the checksum
+    ]  # an empty last block
     return b"".join(parts)
 
 
