@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hydro1d.deck.messages import Finding
+from hydro1d.errors import Hydro1dError
 from hydro1d.units import shorten
 
 if TYPE_CHECKING:
@@ -67,10 +68,8 @@ def _law_path(index: int, layer: Layer) -> tuple[str | int, ...]:
 
 def check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:
     """Run the law once in plain Python, so that the first error its author meets is not a compiler's."""
-    try:
-        from hydro1d.laws.check import check_law as run
-    except ModuleNotFoundError:
-        return []
+    from hydro1d.laws.check import check_law as run
+
     try:
         run(law)
     except (Exception, SystemExit) as error:  # a user's code may raise anything
@@ -80,7 +79,7 @@ def check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:
 
 def _sentence(error: BaseException) -> str:
     text = str(error).strip() or "no message"
-    return text if isinstance(error, ValueError) else f"raised {type(error).__name__}: {shorten(text, 200)[1:-1]}"
+    return text if isinstance(error, ValueError | Hydro1dError) else f"raised {type(error).__name__}: {shorten(text, 200)[1:-1]}"
 
 
 def _check_end(side: str, boundary: Boundary | None, layers: Sequence[Layer]) -> list[Finding]:

@@ -73,7 +73,7 @@ def test_built_in_python():
         left=pulse(),
         right=Wall(),
         end="8 ms",
-        output=Output(profiles=200, probes=["25 cm", 0.5]),
+        output=Output(profiles=200, history=1, probes=["25 cm", 0.5]),
         checkpoint=Checkpoint(cycles=5000),
     )
     assert built == load_deck(MAIN)
