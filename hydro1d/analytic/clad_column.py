@@ -115,6 +115,6 @@ class CladColumn:
         crushed = coordinate < now.front
         passed = np.where(crushed, coordinate, 0.0)
         moments = bisect(lambda time: self._front(time) > passed, np.zeros(passed.shape), self.end_time)
-        crossing = self.material.shock_stress(self._velocity(moments, passed))
+        crossing = self.material.shock_stress(self._velocity(moments, self._front(moments)))
         block_stress = self._block_stress(passed, t, now.front, now.front_stress)
         return self.material.fields(crushed, now.velocity, block_stress, crossing)

@@ -2,7 +2,8 @@
 
 d'Alembert: stress = f(t - X/c) + g(t + X/c), velocity = (f - g)/Z, with Z = sqrt(E rho0) and c = sqrt(E/rho0). At an
 interface a wave of stress f gives R f back and T f on, R = (Z2 - Z1)/(Z2 + Z1), T = 1 + R; a wall has R = 1, a free end
-R = -1 (K. F. Graff, Wave Motion in Elastic Solids, 1975, section 2.2). The waves are followed through all echoes.
+R = -1 (K. F. Graff, Wave Motion in Elastic Solids, 1975, section 2.2). Every wave is a sum of the applied pressure at
+earlier times t - a T1 - b T2, T1 and T2 the transit times; the factors follow from the reflections, order by order.
 """
 
 import math
@@ -17,7 +18,6 @@ from hydro1d.analytic._checks import Array, Flags, coordinates, positive, requir
 from hydro1d.analytic.jumps import Fields, Jump, State, rest_state
 
 _END_REFLECTION = {"wall": 1.0, "free": -1.0, "transmitting": 0.0}
-_MOST_TRANSITS = 14.0  # echoes double with every transit
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,8 @@ class ElasticLayers:
     """Two bonded elastic layers, a pressure history on the left end, `right_end` wall, free or transmitting.
 
     pressure(t) takes an array of times >= 0 (s) and returns Pa, a jump at t = 0 allowed (a `Pulse.pressure` fits).
-    Called with (coordinate, t), which broadcast; exact through echoes, until 14 transits of the quicker layer
-    (`end_time`; ValueError after). The layers stay bonded, tension included; small strain is not assumed.
+    Called with (coordinate, t), which broadcast; exact for all times, through all echoes. The layers stay bonded,
+    tension included; small strain is not assumed.
     """
 
     first: ElasticLayer
@@ -92,20 +92,21 @@ class ElasticLayers:
         """When the head arrives at the interface, s."""
         return self.first.transit_time
 
-    @property
-    def end_time(self) -> float:
-        """Until when echoes are followed, s."""
-        return _MOST_TRANSITS * min(self.first.transit_time, self.second.transit_time)
-
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s); on the interface, those of the second layer (strain jumps there)."""
-        t = times(t, self.end_time, "echoes are followed no further")
         coordinate = coordinates(coordinate, self.first.thickness + self.second.thickness)
-        coordinate, t = np.broadcast_arrays(coordinate, t)
+        coordinate, t = np.broadcast_arrays(coordinate, times(t))
         inside: Flags = coordinate < self.first.thickness
         near, far = coordinate / self.first.wave_speed, (coordinate - self.first.thickness) / self.second.wave_speed
-        left = self.first.fields(self._down_1(t - near), self._up_1(t - (self.first.transit_time - near)))
-        right = self.second.fields(self._down_2(t - far), self._up_2(t - (self.second.transit_time - far)))
+        down_1, up_1, down_2, up_2 = self._echoes(float(np.max(t)))
+        left = self.first.fields(
+            self._sum(down_1, t - near),
+            self._sum(up_1, t - (self.first.transit_time - near)),
+        )
+        right = self.second.fields(
+            self._sum(down_2, t - far),
+            self._sum(up_2, t - (self.second.transit_time - far)),
+        )
         return Fields(*(np.where(inside, a, b) for a, b in zip(left, right, strict=True)))
 
     def jumps(self, t: float) -> list[Jump]:
@@ -131,30 +132,31 @@ class ElasticLayers:
             Jump(rest_state(second.density), second.state(on, 0.0), second.density, second.wave_speed, there),
         ]
 
-    def _down_1(self, t: Array) -> Array:
-        """Right-going wave where it leaves the left end: what is applied there less what arrives."""
-        if np.all(t < 0.0):
-            return np.zeros_like(t)
-        applied = np.where(t >= 0.0, self.pressure(np.maximum(t, 0.0)), 0.0)
-        return applied - self._up_1(t - self.first.transit_time)
+    def _sum(self, factors: Array, t: Array) -> Array:
+        """A wave where it starts, from its factors on the pressure at t - a T1 - b T2."""
+        wave = np.zeros_like(t)
+        for (a, b), factor in np.ndenumerate(factors):
+            since = t - a * self.first.transit_time - b * self.second.transit_time
+            if factor != 0.0 and np.any(since >= 0.0):
+                wave = wave + factor * np.where(since >= 0.0, self.pressure(np.maximum(since, 0.0)), 0.0)
+        return wave
 
-    def _up_1(self, t: Array) -> Array:
-        """Left-going wave where it leaves the interface into the first layer."""
-        if np.all(t < 0.0):
-            return np.zeros_like(t)
-        back = reflection(self.first, self.second) * self._down_1(t - self.first.transit_time)
-        return back + transmission(self.second, self.first) * self._up_2(t - self.second.transit_time)
+    def _echoes(self, last: float) -> tuple[Array, Array, Array, Array]:
+        """Factors (a, b) of the four waves where they start, as far as time `last` needs.
 
-    def _down_2(self, t: Array) -> Array:
-        """Right-going wave where it leaves the interface into the second layer."""
-        if np.all(t < 0.0):
-            return np.zeros_like(t)
-        on = transmission(self.first, self.second) * self._down_1(t - self.first.transit_time)
-        return on + reflection(self.second, self.first) * self._up_2(t - self.second.transit_time)
-
-    def _up_2(self, t: Array) -> Array:
-        """Left-going wave where it leaves the right end."""
-        returned = _END_REFLECTION[self.right_end]
-        if returned == 0.0 or np.all(t < 0.0):
-            return np.zeros_like(t)
-        return returned * self._down_2(t - self.second.transit_time)
+        Right-going and left-going in the first layer, then in the second. At the left end the pressure is given, so
+        what arrives there returns with its sign changed.
+        """
+        first, second = self.first, self.second
+        shape = (int(last / first.transit_time) + 2, int(last / second.transit_time) + 2)
+        down_1, up_1, down_2, up_2 = (np.zeros(shape) for _ in range(4))
+        there, back = transmission(first, second), transmission(second, first)
+        mirror, end = reflection(first, second), _END_REFLECTION[self.right_end]
+        for a, b in np.ndindex(shape):
+            from_left, from_right = (down_1[a - 1, b], up_1[a - 1, b]) if a > 0 else (0.0, 0.0)
+            returning, arriving = (up_2[a, b - 1], down_2[a, b - 1]) if b > 0 else (0.0, 0.0)
+            down_1[a, b] = (1.0 if a == b == 0 else 0.0) - from_right
+            up_1[a, b] = mirror * from_left + back * returning
+            down_2[a, b] = there * from_left - mirror * returning
+            up_2[a, b] = end * arriving
+        return down_1, up_1, down_2, up_2

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from hydro1d.analytic._checks import Array, not_negative, positive, require
 
-
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 

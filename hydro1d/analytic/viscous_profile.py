@@ -1,9 +1,9 @@
 """Steady profile of a compaction front under artificial viscosity: what a captured front looks like.
 
 A steady front has v - vA = C (strain - strain_A), so stress + q follows the Rayleigh line exactly:
-q = stress_A + rho0 C^2 (strain - strain_A) - stress(strain). With q = dv (c2 rho dv + c1 rho0 c), dv = h C |d strain/dX| the
-velocity jump over a zone of initial width h, rho the current density and c = sqrt(tangent/rho0), the slope at each
-strain is the root of a quadratic, and the profile an integral over strain.
+q = stress_A + rho0 C^2 (strain - strain_A) - stress(strain). With q = dv (c2 rho dv + c1 rho0 c), where
+dv = h C |d strain/dX| is the velocity jump over a zone of initial width h, rho the current density and
+c = sqrt(tangent/rho0), the slope at each strain is the root of a quadratic, and the profile an integral over strain.
 Source: von Neumann & Richtmyer, J. Appl. Phys. 21 (1950) 232-237, doi:10.1063/1.1699639 (quadratic term, gas); Eq. 37
 of Harrigan, Reid & Seyed Yaghoubi 2010, doi:10.1016/j.ijimpeng.2009.03.011, for the line.
 """
@@ -27,9 +27,9 @@ _CUT = 1e-9  # the profile approaches its end states, or one of them, only at in
 class ViscousProfile:
     """Compaction front with velocity jump [v] (m/s) into material at yield, smeared by viscosity.
 
-    curve; velocity_jump m/s; zone_width h, m (initial); linear c1 and quadratic c2 of q, not both zero. Called with
-    (coordinate, t): the strain halfway between the end states is at coordinate = front_speed t. Returns `Fields`, stress
-    without q; `viscosity(strain)` gives q. Internal energy includes the work of q, so it too is on the jump's line.
+    curve; velocity_jump m/s; zone_width h, m (initial); linear c1 and quadratic c2 > 0 of q. Called with
+    (coordinate, t) it returns `Fields`; the stress is without q, which `viscosity(strain)` gives; the internal energy
+    includes the work of q; the middle of the front, halfway in strain, is at front_speed t.
     """
 
     curve: Curve
@@ -118,9 +118,14 @@ class ViscousProfile:
         return Fields(velocity, curve.stress(strain), strain, curve.density / (1.0 - strain), energy)
 
     def _strain_at(self, place: Array) -> Array:
-        """Strain at a distance ahead of the middle, by interpolation on a table that is dense at both ends."""
+        """Strain at a distance ahead of the middle."""
+        distances, strains = self._table
+        return np.interp(-place, -distances, strains, left=self._ends[0], right=self._ends[1])
+
+    @cached_property
+    def _table(self) -> tuple[Array, Array]:
+        """Distances and strains, dense at both ends."""
         ahead, behind, _ = self._ends
         share = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, 20001))
         strains = ahead + (behind - ahead) * np.clip(share, _CUT, 1.0 - _CUT)
-        distances = self.distance(strains)
-        return np.interp(-place, -distances, strains, left=ahead, right=behind)
+        return self.distance(strains), strains
