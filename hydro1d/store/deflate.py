@@ -18,12 +18,15 @@ LEVEL = 1
 _SAMPLE = 2048
 _PIECES = 8
 _WORTHWHILE = 0.8  # a plane whose sample stays larger than this is stored
+_SMALL = 1 << 16  # bytes of a chunk that is not worth sampling
 _STORED = 65535  # bytes in a stored block
 
 
 def deflate(values: np.ndarray) -> bytes:
     """A chunk of float64 values as the filters shuffle and gzip leave it in the file."""
     planes = np.ascontiguousarray(np.ascontiguousarray(values).reshape(-1).view(np.uint8).reshape(-1, 8).T)
+    if planes.nbytes < _SMALL:
+        return zlib.compress(planes.data, LEVEL)
     parts: list[bytes | memoryview] = [b"\x78\x01"]
     for plane in planes:
         parts += _compressed(plane) if _compresses(plane) else _stored(plane)

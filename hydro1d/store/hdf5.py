@@ -19,6 +19,7 @@ LIBVER = ("v108", "v110")
 # Names of a dimension without values, by the netCDF-4 convention.
 NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable. %9d"
 
+_TEXT = h5py.string_dtype()
 _STRING = h5t.py_create(h5py.string_dtype(), logical=True)  # in the file
 _OBJECT = h5t.py_create(h5py.string_dtype())  # in memory
 _numbers = itertools.count()
@@ -47,9 +48,9 @@ def new_group(file: h5py.File, name: str) -> None:
 
 
 def set_attribute(target: Any, name: str, value: Any) -> None:
-    """Write one attribute: text as UTF-8 of variable length, numbers as 64-bit, sequences as arrays."""
+    """Write one new attribute: text as UTF-8 of variable length, numbers as 64-bit, sequences as arrays."""
     if isinstance(value, str):
-        kind, space, array = _STRING, _SCALAR, np.array(value, dtype=h5py.string_dtype())
+        kind, space, array = _STRING, _SCALAR, np.array(value, dtype=_TEXT)
     else:
         array = np.asarray(value)
         if array.dtype.kind == "b":
@@ -60,10 +61,7 @@ def set_attribute(target: Any, name: str, value: Any) -> None:
             array = array.astype(h5py.string_dtype())
         kind = _STRING if array.dtype.kind == "O" else h5t.py_create(array.dtype, logical=True)
         space = h5s.create_simple(array.shape) if array.shape else _SCALAR
-    key = name.encode()
-    if h5a.exists(target, key):
-        h5a.delete(target, key)
-    h5a.create(target, key, kind, space).write(array, mtype=_OBJECT if kind is _STRING else kind)
+    h5a.create(target, name.encode(), kind, space).write(array, mtype=_OBJECT if kind is _STRING else kind)
 
 
 def _describe(dataset: Any, field: Field) -> None:

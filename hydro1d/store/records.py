@@ -14,6 +14,7 @@ from hydro1d.store.layout import Field
 
 _CHUNK = 65536  # values in a chunk, 512 KB: profiles and time series are both read at a fair speed
 _LONGEST = 16384  # rows in a chunk
+_PARALLEL = 1 << 20  # bytes that are worth starting threads for
 
 
 @dataclass
@@ -148,11 +149,17 @@ def compress_all(
         for block in [*waiting, *([tail] if tail else [])]:
             block.pieces = [[] for _ in table.fields]
         jobs += [_job(table, index, waiting, tail, sums) for index in range(len(table.fields))]
-    _run(jobs, threads)
+    _run(jobs, threads if _waiting(results, tables) > _PARALLEL else 1)
     for table, (tail, _) in zip(tables, results, strict=True):
         for block in [*table.blocks, *([tail] if tail else [])]:
             block.values = None
     return results
+
+
+def _waiting(results: list[tuple[Block | None, list[int]]], tables: list[Table]) -> int:
+    """Bytes of numbers that are about to be compressed."""
+    blocks = [block for table in tables for block in table.blocks] + [tail for tail, _ in results if tail]
+    return sum(block.values.nbytes for block in blocks if block.values is not None)
 
 
 def _job(table: Table, index: int, blocks: list[Block], tail: Block | None, sums: list[int]) -> Callable[[], None]:
