@@ -21,7 +21,7 @@ from scipy.integrate import OdeSolution, solve_ivp
 from hydro1d.analytic._checks import Array, Flags, coordinates, length_allowed, positive, require, times
 from hydro1d.analytic._roots import bisect
 from hydro1d.analytic.curves import Curve
-from hydro1d.analytic.hugoniot import compaction_hugoniot, compaction_strain
+from hydro1d.analytic.hugoniot import Hugoniot, compaction_hugoniot, compaction_strain
 from hydro1d.analytic.jumps import Fields, Jump, State, rest_state, shocked_state
 from hydro1d.analytic.step_loading import StepLoading, pressure_step
 
@@ -118,9 +118,10 @@ class CompactionColumn(ABC):
     def history(self, t: ArrayLike) -> ColumnHistory:
         """Ends and fronts at times t (s); ValueError after `end_time`."""
         t = self._times(t)
-        displacement, velocity, front, deceleration = self._block(t)
         curve = self.curve
+        displacement, velocity, front = self._motion(t)
         front_stress = self._front_stress(velocity - curve.yield_velocity)
+        deceleration = self._deceleration(t, front, front_stress)
         arrived = t >= self.wave_arrival
         return ColumnHistory(
             displacement,
@@ -141,7 +142,7 @@ class CompactionColumn(ABC):
     def momentum_residual(self, t: ArrayLike) -> Array:
         """(m1 + m)(v - VY) against its closed form (Eq. 45 integrated), over the momentum at the start."""
         t = np.maximum(self._times(t), self._start.time)
-        _, velocity, front, _ = self._block(t)
+        _, velocity, front = self._motion(t)
         block = self.end_mass + self.curve.density * front
         closed = self.momentum - self.curve.yield_stress * t
         return (block * (velocity - self.curve.yield_velocity) - closed) / self.momentum
@@ -165,7 +166,9 @@ class CompactionColumn(ABC):
         """Fields at coordinate (m) and t (s), which broadcast; ValueError outside the column and after `end_time`."""
         t = self._times(t)
         coordinate = coordinates(coordinate, self.length)
-        _, velocity, front, deceleration = self._block(t)
+        _, velocity, front = self._motion(t)
+        resistance = self._front_stress(velocity - self.curve.yield_velocity)
+        deceleration = self._deceleration(t, front, resistance)
         distal = np.minimum(self._distal_front(t), self.length)
         regions = [coordinate < front, coordinate > distal, coordinate < self.curve.elastic_speed * t]
         crushed = self._crushed_fields(coordinate, t, velocity, deceleration, regions[0])
@@ -176,16 +179,16 @@ class CompactionColumn(ABC):
         self, coordinate: Array, t: Array, velocity: Array, deceleration: Array, inside: Flags
     ) -> Fields:
         crossed = np.where(inside, self._relative_velocity_at_crossing(np.where(inside, coordinate, 0.0)), 1.0)
-        behind = compaction_hugoniot(self.curve, crossed)
+        behind = self._hugoniot(crossed)
         energy = self._yielded.internal_energy + behind.absorbed_energy / self.curve.density
         stress = self._block_stress(coordinate, t, deceleration)
         return Fields(velocity, stress, behind.strain, self.curve.density / (1.0 - behind.strain), energy)
 
     def _relative_velocity_at_crossing(self, coordinate: Array) -> Array:
-        """[v] of the front when it passed the coordinate; every coordinate once, since this is the slow part."""
+        """[v] of the front when it passed the coordinate."""
         places, back = np.unique(coordinate, return_inverse=True)
         moments = bisect(lambda t: self._front(t) > places, np.zeros(places.shape), self.end_time)
-        _, velocity, _, _ = self._block(moments)
+        _, velocity, _ = self._motion(moments)
         return (velocity - self.curve.yield_velocity)[back].reshape(coordinate.shape)
 
     @property
@@ -214,25 +217,33 @@ class CompactionColumn(ABC):
         )
 
     def _front(self, t: Array) -> Array:
-        return self._block(t)[2]
+        return self._motion(t)[2]
 
     def _front_stress(self, relative_velocity: Array) -> Array:
         moving = np.maximum(relative_velocity, 1e-9 * self._start.velocity)
-        return compaction_hugoniot(self.curve, moving).stress
+        return self._hugoniot(moving).stress
 
-    def _block(self, t: Array) -> tuple[Array, Array, Array, Array]:
-        """Displacement, velocity, crushed length and deceleration of the block."""
+    def _hugoniot(self, velocity_jump: Array) -> Hugoniot:
+        """States behind the front; each velocity jump once, since this is the slow part."""
+        different, back = np.unique(velocity_jump, return_inverse=True)
+        states = compaction_hugoniot(self.curve, different)
+        return Hugoniot(*(values[back].reshape(velocity_jump.shape) for values in states))
+
+    def _motion(self, t: Array) -> tuple[Array, Array, Array]:
+        """Displacement, velocity and crushed length of the block."""
         start = self._start
         decaying = t > start.time
         share = np.minimum(t / start.time, 1.0) if start.time > 0.0 else np.ones_like(t)
         later = self._decay(np.clip(t, start.time, self.arrest_time).ravel()).reshape(3, *t.shape)
         velocity = np.where(decaying, later[0], start.velocity)
         front = np.where(decaying, later[1], start.front * share)
-        displacement = np.where(decaying, later[2], start.displacement * share)
-        resistance = self._front_stress(velocity - self.curve.yield_velocity)
-        block = self.end_mass + self.curve.density * front
-        deceleration = np.where(decaying | (start.time == 0.0), resistance / np.where(block > 0.0, block, 1.0), 0.0)
-        return displacement, velocity, front, deceleration
+        return np.where(decaying, later[2], start.displacement * share), velocity, front
+
+    def _deceleration(self, t: Array, front: Array, front_stress: Array) -> Array:
+        """Of the block, m/s^2 (Eq. 46); none while a pulse holds it at constant velocity."""
+        start, block = self._start, self.end_mass + self.curve.density * front
+        free = (t > start.time) | (start.time == 0.0)
+        return np.where(free, front_stress / np.where(block > 0.0, block, 1.0), 0.0)
 
     @cached_property
     def _decay(self) -> OdeSolution:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -118,6 +118,7 @@ def test_conditions_at_interface_and_ends(first, second, end, share):
     assert abs(float(zero)) < 1e-6
 
 
+@settings(max_examples=30)
 @given(layers, layers, st.sampled_from(["wall", "free"]), st.floats(0.2, 1.0))
 def test_energy_stays_after_the_pulse(first, second, end, share):
     duration = first.transit_time
@@ -131,7 +132,7 @@ def test_energy_stays_after_the_pulse(first, second, end, share):
 def total_energy(bar, t):
     total = 0.0
     for start, layer in ((0.0, bar.first), (bar.first.thickness, bar.second)):
-        cells = 6000
+        cells = 2000
         x = start + layer.thickness * (np.arange(cells) + 0.5) / cells
         fields = bar(x, t)
         total += layer.density * layer.thickness * np.mean(fields.internal_energy + 0.5 * fields.velocity**2)
