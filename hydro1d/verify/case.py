@@ -1,0 +1,34 @@
+"""What a case of the verification suite is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from hydro1d.verify.rows import Table
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How fine the runs are: the default suite takes a minute, the full one adds finer resolutions."""
+
+    full: bool = False
+
+    def zones(self, coarsest: int, levels: int = 3) -> tuple[int, ...]:
+        """Numbers of zones, each twice the one before; the full suite adds one more doubling."""
+        return tuple(coarsest * 2**k for k in range(levels + self.full))
+
+
+@dataclass(frozen=True)
+class Case:
+    """One entry of the suite.
+
+    `study(table, effort)` runs the solver and fills the table with exactly `rows` rows; about: what is run and what is compared,
+    one paragraph, for the report.
+    """
+
+    name: str
+    title: str
+    about: str
+    rows: int
+    study: Callable[[Table, Effort], None]

@@ -1,0 +1,158 @@
+"""Runs and what is measured on them: plateaus, fronts, norms, orders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hydro1d.analytic import Jump, State
+from hydro1d.boundaries.base import Boundary
+from hydro1d.column import Column, build_column
+from hydro1d.deck import Layer
+from hydro1d.errors import BreakdownError
+from hydro1d.solver import Frame, Outcome, solve
+from hydro1d.state import State as SolverState
+from hydro1d.viscosity import Viscosity
+
+FRONT_SHARE = 1e-4  # of the stress jump: where q has fallen below it the front has passed
+START_UP = 5  # zones at the loaded end whose medians are left out; `worst` has them
+
+
+class Recording:
+    """A sink that keeps profiles and history, and reads like a run: ``recording["momentum"]`` is a column of the history."""
+
+    def __init__(self, column: Column) -> None:
+        self.column = column
+        self.frames: list[Frame] = []
+        self._blocks: list[np.ndarray] = []
+        self._probes: list[np.ndarray] = []
+        self.outcome: Outcome
+
+    def profile(self, frame: Frame) -> None:
+        """Keep a profile."""
+        self.frames.append(frame)
+
+    def history(self, rows: np.ndarray, probes: np.ndarray) -> None:
+        """Keep rows of history and probes."""
+        self._blocks.append(np.array(rows))
+        self._probes.append(np.array(probes))
+
+    def checkpoint(self, state: SolverState) -> None:
+        """Nothing to keep."""
+
+    def maxima(self, zone_maxima: dict[str, np.ndarray]) -> None:
+        """Nothing to keep."""
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A column of the history."""
+        names = [variable.name for variable in self.column.history_variables]
+        return np.concatenate([block[:, names.index(name)] for block in self._blocks])
+
+    @property
+    def probes(self) -> np.ndarray:
+        """(row, probe, quantity): position, velocity, strain, stress."""
+        return np.concatenate(self._probes)
+
+    @property
+    def last(self) -> dict[str, np.ndarray]:
+        """Fields of the last profile."""
+        return self.frames[-1].fields
+
+
+def simulate(
+    layers: Layer | Sequence[Layer],
+    left: Boundary,
+    right: Boundary,
+    *,
+    end: float,
+    profiles: Sequence[float] = (),
+    history: int = 0,
+    viscosity: Viscosity | None = None,
+    cfl: float = 0.9,
+    probes: Sequence[float] = (),
+) -> Recording:
+    """Run a column; profiles at the given times (the end unless given). Raises BreakdownError if it breaks down."""
+    layers = [layers] if isinstance(layers, Layer) else list(layers)
+    column = build_column(
+        layers,
+        left,
+        right,
+        end=end,
+        cfl=cfl,
+        viscosity=viscosity,
+        profile_times=profiles or (end,),
+        history=history,
+        probes=probes,
+    )
+    recording = Recording(column)
+    recording.outcome = outcome = solve(column, recording)
+    if outcome.status != "complete":
+        raise BreakdownError(outcome.message, outcome.zone or 0, outcome.time, outcome.cycles)
+    return recording
+
+
+class Front(NamedTuple):
+    """A front that runs to the right, as measured: the states on both sides, where it is, and how even its plateau is.
+
+    worst: strain of the zone of the plateau, start-up zones included, that is farthest from the exact strain.
+    spread: integral of |ε − exact| over the front, per strain jump, m.
+    """
+
+    ahead: State
+    behind: State
+    coordinate: float
+    worst: float
+    spread: float
+    plateau: int
+
+
+def measure_front(column: Column, fields: dict[str, np.ndarray], exact: Jump, coordinate: float, clear: float) -> Front:
+    """Measure the front of a uniform column, known to be near ``coordinate``; ahead of it the plateau reaches to ``clear`` (m)."""
+    size = column.slabs[0].size
+    strain, q = fields["strain"], fields["viscosity"]
+    arrived, beyond = int(coordinate / size), min(int(clear / size), column.zones)
+    quiet = q <= FRONT_SHARE * exact.stress
+    last = arrived - 3
+    while last > 2 * START_UP and not quiet[last - 1]:
+        last -= 1
+    foot = arrived + 3
+    while foot < beyond - 3 and not quiet[foot]:
+        foot += 1
+    behind = _median(fields, slice(START_UP, last))
+    ahead = _median(fields, slice(foot, beyond))
+    window = slice(last // 2, beyond)
+    share = (strain[window] - ahead.strain) / (behind.strain - ahead.strain)
+    place = size * (last // 2 + float(share.sum()))
+    worst = strain[:last][np.argmax(np.abs(strain[:last] - exact.behind.strain))]
+    sharp = np.clip(coordinate / size - np.arange(column.zones), 0.0, 1.0)[window]
+    spread = size * float(np.abs(strain[window] - exact.ahead.strain - exact.strain * sharp).sum() / exact.strain)
+    return Front(ahead, behind, place, float(worst), spread, last)
+
+
+def _median(fields: dict[str, np.ndarray], zones: slice) -> State:
+    names = ("velocity", "stress", "strain", "density", "internal_energy")
+    return State(*(float(np.median(fields[name][zones])) for name in names))
+
+
+def order(zones: Sequence[int], errors: Sequence[float]) -> float:
+    """Observed order: slope of the least-squares line through log error against log zone size."""
+    values = np.maximum(np.abs(np.asarray(errors, dtype=float)), 1e-300)
+    return float(-np.polyfit(np.log(np.asarray(zones, dtype=float)), np.log(values), 1)[0])
+
+
+def extrapolate(parameters: Sequence[float], values: Sequence[float], power: float) -> float:
+    """Limit of values that approach it as parameter^(−power): the least-squares line in that variable, at zero."""
+    return float(np.polyfit(np.asarray(parameters, dtype=float) ** -power, np.asarray(values, dtype=float), 1)[1])
+
+
+def crossing(t: ArrayLike, values: ArrayLike, level: float = 0.0) -> float:
+    """First time at which values fall to a level, by linear interpolation; NaN if they never do."""
+    t, values = np.asarray(t, dtype=float), np.asarray(values, dtype=float)
+    below = np.flatnonzero((values[1:] <= level) & (values[:-1] > level))
+    if not len(below):
+        return float("nan")
+    k = int(below[0])
+    return float(t[k] + (t[k + 1] - t[k]) * (values[k] - level) / (values[k] - values[k + 1]))

@@ -1,0 +1,119 @@
+"""The rows of the verification table and the curves of its figures: what a case returns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True)
+class Row:
+    """One comparison.
+
+    error is |measured − exact|/|exact|, or absolute where exact is 0 or a scale is named in `quantity`; order is what
+    successive resolutions show (None: not asked for, or exact already); tolerance bounds the error (infinite: reported only) and
+    least_order the order. reason says where the tolerance comes from.
+    """
+
+    case: str
+    quantity: str
+    exact: float
+    measured: float
+    error: float
+    order: float | None
+    tolerance: float
+    passed: bool
+    least_order: float | None = None
+    reason: str = ""
+
+    def plain(self) -> dict[str, Any]:
+        """The row as JSON holds it: null for what is not a finite number."""
+        return {
+            key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in asdict(self).items()
+        }
+
+
+@dataclass(frozen=True)
+class Line:
+    """One curve of a panel: the exact solution, a run, or points."""
+
+    x: np.ndarray
+    y: np.ndarray
+    label: str
+    style: Literal["exact", "run", "points"] = "run"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One set of axes."""
+
+    title: str
+    x_label: str
+    y_label: str
+    lines: tuple[Line, ...]
+    log: bool = False
+
+
+@dataclass
+class Table:
+    """Collects the rows and panels of one case."""
+
+    case: str
+    rows: list[Row] = field(default_factory=list)
+    panels: list[Panel] = field(default_factory=list)
+
+    def compare(
+        self,
+        quantity: str,
+        exact: float,
+        measured: float,
+        tolerance: float,
+        reason: str,
+        *,
+        scale: float | None = None,
+        order: float | None = None,
+        least_order: float | None = None,
+    ) -> None:
+        """Add |measured − exact| over ``scale`` (|exact| unless given, 1 for an exact zero) against a tolerance."""
+        exact, measured = float(exact), float(measured)
+        error = abs(measured - exact) / (abs(scale) if scale else abs(exact) or 1.0)
+        passed = error <= tolerance and math.isfinite(error)  # a NaN never passes
+        if least_order is not None:
+            passed = passed and order is not None and order >= least_order
+        self.rows.append(
+            Row(self.case, quantity, exact, measured, error, order, float(tolerance), bool(passed), least_order, reason)
+        )
+
+    def bound(
+        self, quantity: str, value: float, tolerance: float, reason: str, *, order: float | None = None, least_order: float | None = None
+    ) -> None:
+        """Add a quantity that is zero in the exact solution: a residual or a norm of the error."""
+        self.compare(quantity, 0.0, value, tolerance, reason, order=order, least_order=least_order)
+
+    def report(self, quantity: str, exact: float, measured: float, reason: str, *, scale: float | None = None) -> None:
+        """Add a row that is shown and not judged, unless it is not a number."""
+        self.compare(quantity, exact, measured, math.inf, reason, scale=scale)
+
+    def panel(self, title: str, x_label: str, y_label: str, lines: Sequence[Line], *, log: bool = False) -> None:
+        """Add a set of axes to the case's figure."""
+        self.panels.append(Panel(title, x_label, y_label, tuple(lines), log))
+
+    def convergence(self, zones: Sequence[int], errors: dict[str, Sequence[float]], y_label: str) -> None:
+        """Add the error against the number of zones, on logarithmic axes."""
+        lines = [line(zones, values, label) for label, values in errors.items()]
+        self.panel("convergence", "zones", y_label, lines, log=True)
+
+
+def line(x: ArrayLike, y: ArrayLike, label: str, style: Literal["exact", "run", "points"] = "run") -> Line:
+    """A curve from anything array-like."""
+    return Line(np.asarray(x, dtype=float), np.asarray(y, dtype=float), label, style)
+
+
+def failure(case: str, quantity: str, reason: str) -> Row:
+    """A row for what did not run."""
+    return Row(case, quantity, math.nan, math.nan, math.nan, None, 0.0, False, None, reason)
