@@ -107,7 +107,7 @@ def build_column(
     right: Boundary,
     *,
     end: float,
-    cfl: float = 0.9,
+    cfl: float = 0.8,
     viscosity: Viscosity | None = None,
     profile_times: Sequence[float] = (),
     history: int = 1,

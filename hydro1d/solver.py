@@ -85,10 +85,10 @@ def initial_state(column: Column, program: Program) -> State:
         memory=np.zeros((2, MEMORY)),
         numbers=np.zeros((len(slabs), march.NUMBERS)),
     )
-    linear, quadratic = column.viscosity.coefficients()
+    viscosity = column.viscosity.coefficients()
     for slab, numbers in zip(slabs, state.numbers, strict=True):
         density = slab.law.density
-        numbers[: zone_places.NUMBERS] = (0.0, 0.0, 1.0 / slab.size, 1.0 / density, density, linear, quadratic)
+        numbers[: zone_places.NUMBERS] = (0.0, 0.0, 1.0 / slab.size, 1.0 / density, density, *viscosity)
         numbers[march.CRUSHED_STRAIN], numbers[march.SIZE] = slab.law.crushed_strain, slab.size
         numbers[march.ZONE_MASS] = slab.size * density
         state.energy[slab.part] = slab.law.initial_energy
@@ -267,14 +267,16 @@ class _Run:
         state = self.state
         strain = -np.diff(state.displacement) / np.diff(self.column.node_coordinate)
         self.sink.profile(frame(self.column, self.program, state))
-        if status == march.INVERTED:
-            zone = int(np.nanargmax(strain))
-            return self.outcome("failed", f"the zone is inverted: its strain reached {strain[zone]:.6g}", zone)
         bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.energy)
-        zone = int(np.argmax(bad)) if bad.any() else int(np.argmax(np.abs(state.force)))
-        if status == march.NOT_FINITE:
-            return self.outcome("failed", "the state is not finite", zone)
-        return self.outcome("failed", f"the time step collapsed to {state.ledger[march.NEXT_STEP]:.3g} s", zone)
+        zone = int(np.argmax(bad)) if bad.any() else int(np.argmax(strain))
+        cause = {
+            march.INVERTED: f"the zone is inverted: its strain reached {strain[zone]:.6g}",
+            march.NOT_FINITE: f"the state is not finite; the zone's strain is {strain[zone]:.6g}",
+            march.COLLAPSED: f"the time step collapsed to {state.ledger[march.NEXT_STEP]:.3g} s; the largest strain is "
+            f"{strain[zone]:.6g}",
+        }[status]
+        law = self.column.slabs[int(self.column.zone_layer[zone])].law
+        return self.outcome("failed", cause + (law.advice if strain[zone] > 0.95 else ""), zone)
 
 
 def frame(column: Column, program: Program, state: State) -> Frame:

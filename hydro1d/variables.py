@@ -46,7 +46,7 @@ HISTORY = (
     Variable("peak_right_stress", "Pa", "largest right_stress up to now, every cycle counted"),
     Variable("front_position", "m", "Lagrangian position of the proximal compaction front"),
     Variable("distal_front_position", "m", "Lagrangian position of the distal compaction front"),
-    Variable("uncrushed_fraction", "1", "share of the column's length that is not crushed"),
+    Variable("uncrushed_fraction", "1", "share of the crushable length that is not crushed"),
 )
 PROBE = (
     Variable("position", "m", "position of the probe in the laboratory"),

@@ -12,13 +12,16 @@ class Viscosity(Component):
 
     c = √(loading tangent/ρ0); room is the strain that is left to the zone, 1 − ε for a material that does not lock (then
     ρ0/room is the current density), see `Foam.room`. Foam unloads on a steep line and so keeps every overshoot: each zone is a
-    mass on the spring of its locked state, and c₁ = 2 damps it critically. ``kind = "none"`` gives the mass–spring chain.
+    mass on the spring of its locked state, and c₁ = 2 damps it critically. In material that has never yielded, and in gas, the
+    jump is slope-limited and c₁ is `smooth_linear`: there is nothing to lock, and a limited jump with a large c₁ makes noise
+    grow. ``kind = "none"`` gives the mass–spring chain.
     """
 
     kind: Literal["standard", "none"] = "standard"
     linear: float = not_negative("1", "coefficient c₁", default=2.0)
+    smooth_linear: float = not_negative("1", "coefficient c₁ in gas and in material that never yielded", default=0.5)
     quadratic: float = not_negative("1", "coefficient c₂", default=2.0)
 
-    def coefficients(self) -> tuple[float, float]:
-        """(c₁, c₂) as the solver uses them."""
-        return (0.0, 0.0) if self.kind == "none" else (self.linear, self.quadratic)
+    def coefficients(self) -> tuple[float, float, float]:
+        """(c₁ where the material crushes, c₁ where the flow is smooth, c₂) as the solver uses them."""
+        return (0.0, 0.0, 0.0) if self.kind == "none" else (self.linear, self.smooth_linear, self.quadratic)

@@ -52,7 +52,7 @@ class Time(Component):
 
     end: float = positive("s", "time at which the calculation ends")
     cfl: float = Field(
-        0.9, gt=0.0, le=1.0, allow_inf_nan=False, json_schema_extra={"unit": "1"},
+        0.8, gt=0.0, le=1.0, allow_inf_nan=False, json_schema_extra={"unit": "1"},
         description="time step as a share of the stability bound",
     )  # fmt: skip
 

@@ -221,7 +221,7 @@ def record(
     for i in range(zones + 1):
         kinetic = accumulate(kinetic, 0.5 * mass[i] * centred[i + 1] * centred[i + 1])
         momentum = accumulate(momentum, mass[i] * centred[i + 1])
-    internal, length = 0.0, 0.0
+    internal, length, crushable = 0.0, 0.0, 0.0
     for layer in range(layer_count):
         first = layers[layer * LAYER + FIRST_ZONE]
         last = first + layers[layer * LAYER + ZONES]
@@ -232,6 +232,10 @@ def record(
             jump = velocity[i + 1] - velocity[i + 2] + centred[i + 1] - centred[i + 2]
             internal = accumulate(internal, zone_mass * energy[i] + 0.5 * half * force[i] * jump)
             length = accumulate(length, 0.0 if state[i] > crushed else size)
+        if crushed < math.inf:
+            crushable += size * (last - first)
+        else:
+            length -= size * (last - first)
     total = kinetic + internal
     put_in = ledger[FIRST_ENERGY] + max(ledger[LARGEST_INPUT], work)
     row[0], row[1] = ledger[TIME], ledger[LAST_STEP]
@@ -243,7 +247,7 @@ def record(
     row[13], row[14] = momentum, impulse
     row[15], row[16], row[17] = ledger[PEAK_STRESS], ledger[PEAK_LEFT], ledger[PEAK_RIGHT]
     row[18], row[19] = fronts(ledger, layers, numbers, displacement, state, coordinate, layer_count, zones)
-    row[20] = length / (coordinate[zones] - coordinate[0])
+    row[20] = max(length, 0.0) / crushable if crushable > 0.0 else math.nan
     for k in range(2 * end_places.MEMORY):
         row[21 + k] = memory[k]
     for k in range(probes[0]):

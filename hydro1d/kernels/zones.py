@@ -15,8 +15,8 @@ from hydro1d.kernels.primitives import accumulate, gather, order, scatter, unord
 SIGNATURE = "ppppppppiip"
 
 # Places in `numbers`, the scalars of a call ...
-STEP, KICK, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, QUADRATIC = range(7)
-NUMBERS = 7
+STEP, KICK, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, SMOOTH_LINEAR, QUADRATIC = range(8)
+NUMBERS = 8
 # ... and in `out`, what comes back: largest stiffness/ρ0, largest viscous speed, stress and strain, work of the viscosity.
 STIFFNESS, VISCOUS_SPEED, STRESS, STRAIN, VISCOUS_POWER = range(5)
 RESULTS = 5
@@ -49,7 +49,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
         law = unpack(parameters)
         step, half_kick = numbers[STEP], 0.5 * numbers[KICK]
         per_size, per_density, density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY], numbers[DENSITY]
-        linear, quadratic = numbers[LINEAR], numbers[QUADRATIC]
+        linear, smooth_linear, quadratic = numbers[LINEAR], numbers[SMOOTH_LINEAR], numbers[QUADRATIC]
         work = per_size * per_density  # per unit force, velocity jump and time: what a zone gains per mass
 
         if zones < 0:
@@ -82,7 +82,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             shared = max(min(min(0.5 * (left + right), 2.0 * min(left, right)), jump), 0.0)
             closing = max(jump, 0.0) - (shared if smooth else 0.0)
             crowding = quadratic * closing / law.room(strain, closing)
-            speed = linear * math.sqrt(tangent * per_density) + crowding
+            speed = (smooth_linear if smooth else linear) * math.sqrt(tangent * per_density) + crowding
             viscosity = density * closing * speed
 
             state[i] = largest

@@ -27,6 +27,7 @@ class Law(Component):
 
     density: float = positive("kg/m^3", "initial density ρ0")
     history: ClassVar[dict[str, float]] = {}
+    advice: ClassVar[str] = ""  # what to tell a user whose zone was driven to full strain
 
     def point(
         self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]

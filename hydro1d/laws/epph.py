@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from hydro1d.laws.base import PlateauFoam
 from hydro1d.parameters import positive
 
@@ -13,6 +15,7 @@ class EPPH(PlateauFoam):
     no thickness left: strong loads need `epph-tangent`.
     """
 
+    advice: ClassVar[str] = "; the curve of epph ends there, that of epph-tangent hardens without bound"
     modulus: float = positive("Pa", "elastic modulus E")
     shock_slope: float = positive("s/m", "slope s of the strain behind the front against the velocity jump")
 

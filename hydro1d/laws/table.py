@@ -12,7 +12,8 @@ from hydro1d.parameters import derived, pairs, positive
 class Table(Foam):
     """σ(ε) through the points of a measured quasi-static curve, after an elastic line of slope E.
 
-    The curve starts where the elastic line meets it; beyond its last point it goes on with its last slope.
+    The elastic line ends where it meets the curve, whose first segment is extended for that as far as needed (a point at the
+    origin does not count); beyond its last point the curve goes on with its last slope.
     """
 
     modulus: float = positive("Pa", "elastic modulus E")
@@ -21,8 +22,8 @@ class Table(Foam):
     @model_validator(mode="after")
     def _check_curve(self) -> Table:
         points = np.array(self.curve, dtype=float)
-        if len(points) < 2:
-            raise ValueError("curve needs two points at least")
+        if len(points) < 2 or (len(points) == 2 and points[0, 0] == 0.0):
+            raise ValueError("curve needs two points at least besides the origin")
         if not np.isfinite(points).all():
             raise ValueError("curve holds NaN or infinity")
         if not ((np.diff(points[:, 0]) > 0).all() and 0.0 <= points[0, 0] and points[-1, 0] < 1.0):
@@ -31,6 +32,7 @@ class Table(Foam):
             raise ValueError("curve must have stresses that do not fall, from 0 or above")
         if self.modulus * points[-1, 0] <= points[-1, 1]:
             raise ValueError("curve never falls below the elastic line; the modulus is too small for it")
+        self.corners  # noqa: B018 (its own check, before anything is computed)
         return self
 
     def loading(self, strain: float) -> tuple[float, float]:
@@ -49,20 +51,17 @@ class Table(Foam):
     def corners(self) -> np.ndarray:
         """Corner points (strain, stress) of elastic line and curve together, shape (points, 2)."""
         points = np.array(self.curve, dtype=float)
-        excess = self.modulus * points[:, 0] - points[:, 1]
-        first = int(np.argmax((excess > 0.0) & (points[:, 0] > 0.0)))
-        while first < len(points) and excess[first] <= 0.0:
-            first += 1
-        if first == 0:
-            meet = points[0, 1] / self.modulus
-            start = [[0.0, 0.0], [meet, points[0, 1]]] if meet > 0.0 else [[0.0, 0.0]]
-        else:
-            (e0, s0), (e1, s1) = points[first - 1], points[first]
-            slope = (s1 - s0) / (e1 - e0)
-            meet = (s0 - slope * e0) / (self.modulus - slope)
-            start = [[0.0, 0.0], [meet, self.modulus * meet]] if meet > 0.0 else [[0.0, 0.0]]
-        rest = points[points[:, 0] > start[-1][0] * (1.0 + 1e-12)]
-        return np.vstack([start, rest])
+        if points[0, 0] == 0.0:
+            points = points[1:]  # the origin lies on the elastic line already
+        below = np.flatnonzero(self.modulus * points[:, 0] >= points[:, 1])[0]
+        segment = max(below - 1, 0)
+        (strain, stress), (end, end_stress) = points[segment], points[min(segment + 1, len(points) - 1)]
+        slope = (end_stress - stress) / (end - strain) if end > strain else 0.0
+        meet = (stress - slope * strain) / (self.modulus - slope)
+        if not (slope < self.modulus and meet > 0.0):
+            raise ValueError("curve starts steeper than the modulus")
+        rest = points[points[:, 0] > meet * (1.0 + 1e-12)]
+        return np.vstack([[0.0, 0.0], [meet, self.modulus * meet], rest])
 
     @derived
     def strains(self) -> np.ndarray:

@@ -1,0 +1,140 @@
+"""Laws of the user's own: from a file, from Python, with history; and those that cannot be run."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+import hydro1d
+from hydro1d.boundaries.pressure import Pressure
+from hydro1d.boundaries.pulses.constant import Constant
+from hydro1d.boundaries.wall import Wall
+from hydro1d.laws.epph import EPPH
+
+SAME_AS_BUILT_IN = '''
+from hydro1d import PlateauFoam, positive
+
+class Mine(PlateauFoam):
+    """Eq. 39 again."""
+    modulus: float = positive("Pa")
+    shock_slope: float = positive("s/m")
+
+    def hardening(self, over):
+        inverse = 1.0 / (over + self.densification_strain - self.yield_strain)
+        extra = self.density * (over / self.shock_slope) ** 2 * inverse
+        return extra, (2.0 * self.density / self.shock_slope**2 * over - extra) * inverse
+'''
+FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689, "shock_slope": 0.00105}
+DECK = """
+[material.foam]
+law = "{law}"
+density = 51.6
+modulus = 22e6
+plateau_stress = 0.8e6
+densification_strain = 0.689
+shock_slope = 0.00105
+[[layer]]
+material = "foam"
+thickness = 1
+zones = 60
+[left]
+type = "pressure"
+pulse = "constant"
+peak = 3.6e6
+[right]
+type = "wall"
+[time]
+end = 2e-3
+"""
+
+
+def deck(tmp_path, law):
+    path = tmp_path / "deck.toml"
+    path.write_text(DECK.format(law=law))
+    return path
+
+
+def test_a_law_from_a_file_equals_the_built_in(tmp_path):
+    (tmp_path / "mine.py").write_text(SAME_AS_BUILT_IN)
+    mine = hydro1d.run(deck(tmp_path, "mine.py:Mine"))
+    theirs = hydro1d.run(deck(tmp_path, "epph"))
+    for name in ("strain", "stress", "velocity"):
+        assert np.array_equal(mine[name], theirs[name])
+
+
+def test_an_edit_of_the_file_takes_effect(tmp_path):
+    (tmp_path / "mine.py").write_text(SAME_AS_BUILT_IN)
+    before = hydro1d.run(deck(tmp_path, "mine.py:Mine"))
+    (tmp_path / "mine.py").write_text(SAME_AS_BUILT_IN.replace("over / self.shock_slope", "1.1 * over / self.shock_slope"))
+    after = hydro1d.run(deck(tmp_path, "mine.py:Mine"))
+    assert abs(before["strain"][-1] - after["strain"][-1]).max() > 0.01
+
+
+class Hardens(hydro1d.Law):
+    """A law with history: every bit of first loading stiffens it."""
+
+    modulus: float = hydro1d.positive("Pa")
+    history: ClassVar[dict[str, float]] = {"hardness": 1.0, "count": 0.0}
+
+    def point(self, strain, largest, rate, energy, history):
+        hardness, count = history
+        hardness = max(hardness, 1.0 + largest)
+        return self.modulus * hardness * strain, self.modulus, self.modulus * hardness, False, (hardness, count + 1.0)
+
+
+def test_a_law_with_history_as_a_python_object():
+    column = hydro1d.Deck(
+        layers=[
+            hydro1d.Layer(law=Hardens(density=100.0, modulus=1e7), thickness=0.5, zones=20),
+            hydro1d.Layer(law=EPPH(**FOAM), thickness=0.5, zones=20),
+        ],
+        left=Pressure(pulse=Constant(peak=1e6)),
+        right=Wall(),
+        end=2e-3,
+        output={"profiles": 3},
+    )
+    run = hydro1d.run(column)
+    hardness = run["hardness"]
+    assert hardness.shape == (3, 40)
+    assert np.isnan(hardness[:, 20:]).all()
+    assert (hardness[0, :20] == 1.0).all() and (hardness[-1, :20] > 1.0).all()
+    assert hardness[-1, :20] == pytest.approx(1.0 + run["largest_strain"][-1, :20])
+    steps = run.attributes["cycles"]
+    assert (run["count"][-1, :20] >= steps).all()
+
+
+@pytest.mark.parametrize("body, says", [
+    ("raise RuntimeError('no such thing')", "no such thing"),
+    ("return float('nan'), 1e6, 1e6, True, history", "stress is nan"),
+    ("return strain * 1e6, -1.0, 1e6, True, history", "must not be negative"),
+    ("return strain * 1e6", "point must return"),
+    ("return strain * 1e6, 1e6, 1e6, True, (1.0,)", "history must be a tuple of 0"),
+    ("return 1.0 / (strain - 0.5), 1e6, 1e6, True, history", "division by zero"),
+])  # fmt: skip
+def test_a_law_that_cannot_be_run_says_why(tmp_path, body, says):
+    (tmp_path / "bad.py").write_text(
+        "from hydro1d import Law\nclass Bad(Law):\n    def point(self, strain, largest, rate, energy, history):\n"
+        f"        {body}\n"
+    )
+    text = DECK.format(law="bad.py:Bad")
+    text = "\n".join(row for row in text.splitlines() if not row.startswith(("modulus", "plateau", "densif", "shock")))
+    path = tmp_path / "deck.toml"
+    path.write_text(text)
+    with pytest.raises(hydro1d.DeckError, match=says):
+        hydro1d.run(path)
+
+
+@pytest.mark.parametrize("content, law, says", [
+    ("x = 1", "bad.py:Mine", "bad.py has no class Mine"),
+    ("class Mine: pass", "bad.py:Mine", "not a subclass"),
+    ("import no_such_module", "bad.py:Mine", "cannot be loaded"),
+    ("def (", "bad.py:Mine", "cannot be loaded"),
+    ("x = 1", "gone.py:Mine", "does not exist"),
+    ("x = 1", "bad.py", "names no class"),
+])  # fmt: skip
+def test_a_file_that_cannot_be_used_says_why(tmp_path, content, law, says):
+    (tmp_path / "bad.py").write_text(content)
+    with pytest.raises(hydro1d.DeckError, match=says):
+        hydro1d.load_deck(deck(tmp_path, law))

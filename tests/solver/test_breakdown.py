@@ -1,0 +1,52 @@
+"""Where a calculation breaks down it says where, when and why."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from columns import FOAM, layer, run, step
+
+import hydro1d
+from hydro1d.boundaries.piston import Piston
+from hydro1d.boundaries.wall import Wall
+from hydro1d.laws.base import Law
+
+
+def test_the_curve_that_ends_at_full_strain_ends_the_run():
+    outcome, kept = run([layer(FOAM, zones=60)], step(9e6), end=5e-3)
+    assert outcome.status == "failed"
+    assert outcome.zone is not None and "strain" in outcome.message
+    assert outcome.time == kept.frames[-1].time
+    assert np.isfinite(kept.column("energy_error")).all()
+
+
+def test_the_advice_names_the_law_that_can_follow():
+    outcome, _ = run([layer(FOAM, zones=60)], step(9e6), end=5e-3)
+    assert "epph-tangent" in outcome.message
+
+
+class Nonsense(Law):
+    """A law that returns NaN beyond a strain."""
+
+    def point(self, strain, largest, rate, energy, history):
+        return (1e6 * strain if strain < 0.95 else float("nan")), 1e6, 1e6, True, history
+
+
+def test_nan_is_found_and_located():
+    outcome, _ = run([layer(Nonsense(density=100.0), zones=20)], Piston(velocity=300.0), Wall(), end=1.0)
+    assert outcome.status == "failed"
+    assert 0 <= outcome.zone < 20
+
+
+def test_the_public_api_raises_and_leaves_a_diagnostic_file(tmp_path):
+    text = (
+        "[material.foam]\nlaw='epph'\ndensity=51.6\nmodulus=22e6\nplateau_stress=0.8e6\ndensification_strain=0.689\n"
+        "shock_slope=0.00105\n[[layer]]\nmaterial='foam'\nthickness=1\nzones=50\n"
+        "[left]\ntype='pressure'\npulse='constant'\npeak=9e6\n[right]\ntype='wall'\n[time]\nend=5e-3\n"
+    )
+    with pytest.raises(hydro1d.BreakdownError) as caught:
+        hydro1d.run(text, tmp_path / "run.h5")
+    assert caught.value.exit_code == 3 and caught.value.zone is not None
+    assert not (tmp_path / "run.h5").exists()
+    diagnosis = hydro1d.open_run(tmp_path / "run.failed.h5")
+    assert diagnosis.status == "failed" and diagnosis["strain"].shape[1] == 50

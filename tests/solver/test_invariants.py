@@ -1,0 +1,130 @@
+"""What holds on every run, whatever the law: energy, momentum, mass, mirror images, units."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from columns import FOAM, PULSE, ROHACELL, layer, run, step
+
+from hydro1d.boundaries.free import Free
+from hydro1d.boundaries.piston import Piston
+from hydro1d.boundaries.pressure import Pressure
+from hydro1d.boundaries.pulses.friedlander import Friedlander
+from hydro1d.boundaries.striker import Striker
+from hydro1d.boundaries.transmitting import Transmitting
+from hydro1d.boundaries.wall import Wall
+from hydro1d.laws.elastic import Elastic
+from hydro1d.laws.eph import EPH
+from hydro1d.laws.epph import EPPH
+from hydro1d.laws.epph_tangent import EPPHTangent
+from hydro1d.laws.ideal_gas import IdealGas
+from hydro1d.laws.rph import RPH
+from hydro1d.laws.rppl import RPPL
+from hydro1d.laws.trilinear import Trilinear
+
+STEEL = Elastic(density=7850.0, modulus=210e9)
+LAWS = {
+    "epph": FOAM,
+    "epph-tangent": EPPHTangent(**ROHACELL, beta=1.22, gamma=0.603),
+    "trilinear": Trilinear(**ROHACELL, locking_modulus=40e6),
+    "rppl": RPPL(density=51.6, plateau_stress=0.8e6, densification_strain=0.689, stiffness=400),
+    "rph": RPH(density=51.6, modulus=22e6, plateau_stress=0.8e6, hardening=0.1e6),
+    "eph": EPH(density=51.6, modulus=22e6, yield_stress=0.8e6, hardening_modulus=8e6),
+    "elastic": Elastic(density=51.6, modulus=22e6),
+    "ideal-gas": IdealGas(density=1.2, gamma=1.4, pressure=1e5),
+    "reversible": EPPHTangent(**ROHACELL, beta=1.22, gamma=0.603, unloading="reversible", tension=True),
+}
+ENDS = {
+    "pulse-wall": (PULSE, Wall()),
+    "blast-free": (Pressure(pulse=Friedlander(peak=2e6, duration=1e-3, negative_phase=True)), Free()),
+    "piston-transmitting": (Piston(velocity=60.0), Transmitting()),
+    "striker-wall": (Striker(mass=5.0, velocity=80.0), Wall(bonded=False)),
+}
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("ends", ENDS)
+def test_energy_and_momentum_close(law, ends):
+    left, right = ENDS[ends]
+    outcome, kept = run([layer(LAWS[law], zones=80)], left, right, end=4e-3)
+    assert outcome.status == "complete", outcome.message
+    assert np.abs(kept.column("energy_error")).max() < 1e-12
+    momentum, impulse = kept.column("momentum"), kept.column("boundary_impulse")
+    scale = np.abs(impulse).max() + np.abs(momentum).max()
+    assert np.abs(momentum - momentum[0] - impulse).max() < 1e-12 * scale
+
+
+def test_two_moving_layers_close_energy_and_momentum():
+    layers = [layer(STEEL, 0.01, 4, velocity=30.0), layer(FOAM, 0.5, 100)]
+    outcome, kept = run(layers, Free(), Wall(), end=6e-3)
+    assert outcome.status == "complete"
+    assert np.abs(kept.column("energy_error")).max() < 1e-12
+    momentum = kept.column("momentum")
+    # the plate's momentum, and nothing from the free end
+    assert momentum[0] == pytest.approx(7850.0 * 0.01 * 30.0, rel=1e-12)
+    assert np.abs(momentum - momentum[0] - kept.column("boundary_impulse")).max() < 1e-12 * momentum[0]
+
+
+def test_the_mirror_image_is_equal_to_the_last_bit():
+    layers = [layer(STEEL, 0.004, 2), layer(FOAM, 0.5, 100, velocity=3.0)]
+    _, one = run(layers, PULSE, Wall(), end=5e-3, profile_times=[2e-3, 5e-3])
+    mirrored = [layer(FOAM, 0.5, 100, velocity=-3.0), layers[0]]
+    _, other = run(mirrored, Wall(), PULSE, end=5e-3, profile_times=[2e-3, 5e-3])
+    for here, there in zip(one.frames, other.frames, strict=True):
+        for name in ("strain", "stress", "viscosity", "internal_energy"):
+            assert np.array_equal(here.fields[name], there.fields[name][::-1]), name
+        assert np.array_equal(here.fields["velocity"], -there.fields["velocity"][::-1])
+
+
+def test_a_layer_cut_in_two_is_the_same_layer():
+    whole, kept = run([layer(FOAM, 1.0, 128)], end=6e-3, profile_times=[6e-3])
+    _, cut = run([layer(FOAM, 0.25, 32), layer(FOAM, 0.75, 96)], end=6e-3, profile_times=[6e-3])
+    for name, values in kept.frames[-1].fields.items():
+        assert np.array_equal(values, cut.frames[-1].fields[name]), name
+
+
+def test_units_scaled_by_powers_of_two_change_no_bit():
+    mass, length, time = 2.0**5, 2.0**-7, 2.0**-9
+    stress, density = mass / (length * time**2), mass / length**3
+    scaled = EPPH(
+        density=51.6 * density,
+        modulus=22e6 * stress,
+        plateau_stress=0.8e6 * stress,
+        densification_strain=0.689,
+        shock_slope=0.00105 * time / length,
+    )
+    _, one = run([layer(FOAM, 1.0, 100)], step(3.6e6), end=3e-3, profile_times=[3e-3])
+    _, two = run([layer(scaled, length, 100)], step(3.6e6 * stress), end=3e-3 * time, profile_times=[3e-3 * time])
+    units = {"strain": 1.0, "stress": stress, "velocity": length / time, "internal_energy": (length / time) ** 2}
+    for name, unit in units.items():
+        assert np.array_equal(one.frames[-1].fields[name] * unit, two.frames[-1].fields[name]), name
+
+
+def test_a_moving_frame_sees_the_same_collision():
+    gas, speed = LAWS["ideal-gas"], 3740.0  # ten sound speeds
+    still = [layer(gas, 0.5, 100, velocity=200.0), layer(gas, 0.5, 100, velocity=-200.0)]
+    moving = [layer(gas, 0.5, 100, velocity=200.0 + speed), layer(gas, 0.5, 100, velocity=-200.0 + speed)]
+    options = {"end": 4e-4, "profile_times": [4e-4]}
+    _, one = run(still, Piston(velocity=200.0), Piston(velocity=-200.0), **options)
+    _, two = run(moving, Piston(velocity=200.0 + speed), Piston(velocity=-200.0 + speed), **options)
+    assert np.allclose(one.frames[-1].fields["stress"], two.frames[-1].fields["stress"], rtol=1e-9)
+
+
+def test_rest_stays_rest():
+    _, kept = run([layer(FOAM, 1.0, 50)], Free(), Wall(), end=1e-2, profile_times=[1e-2])
+    for name in ("strain", "stress", "velocity", "displacement"):
+        assert not kept.frames[-1].fields[name].any(), name
+
+
+def test_a_step_lands_on_every_output_time_and_corner():
+    times = [1e-3, 1.53e-3, 1.5300001e-3, 2.7e-3]
+    _, kept = run([layer(zones=50)], end=2.7e-3, profile_times=times)
+    assert [frame.time for frame in kept.frames] == times
+
+
+def test_output_does_not_disturb_the_run():
+    _, few = run([layer(zones=100)], end=4e-3, profile_times=[4e-3])
+    _, many = run([layer(zones=100)], end=4e-3, profile_times=np.linspace(0, 4e-3, 101))
+    strain = few.frames[-1].fields["strain"]
+    # all but the few zones at the released end, which ring
+    assert np.abs(many.frames[-1].fields["strain"] - strain)[5:].max() < 2e-3

@@ -1,0 +1,28 @@
+"""A run goes on from a state bit for bit."""
+
+from __future__ import annotations
+
+import numpy as np
+from columns import FOAM, PULSE, layer, run
+
+from hydro1d.boundaries.striker import Striker
+from hydro1d.boundaries.wall import Wall
+from hydro1d.solver import CheckpointPlan
+from hydro1d.state import State
+
+
+def test_from_any_checkpoint_on_everything_is_the_same():
+    options = {"end": 4e-3, "profile_times": np.linspace(0, 4e-3, 9)}
+    plan = CheckpointPlan(cycles=50)
+    for left in (PULSE, Striker(mass=3.0, velocity=90.0)):
+        _, whole = run([layer(FOAM, 1.0, 60)], left, Wall(), checkpoints=plan, **options)
+        _, plain = run([layer(FOAM, 1.0, 60)], left, Wall(), **options)
+        assert np.array_equal(np.concatenate(whole.rows), np.concatenate(plain.rows), equal_nan=True)  # a checkpoint changes no step
+        assert len(whole.states) > 3
+        for state in whole.states:
+            saved = State.from_arrays({name: array.copy() for name, array in state.arrays().items()})
+            _, rest = run([layer(FOAM, 1.0, 60)], left, Wall(), state=saved, **options)
+            rows, all_rows = np.concatenate(rest.rows), np.concatenate(plain.rows)
+            assert np.array_equal(rows, all_rows[-len(rows) :], equal_nan=True)
+            for name, values in rest.frames[-1].fields.items():
+                assert np.array_equal(values, plain.frames[-1].fields[name]), name
