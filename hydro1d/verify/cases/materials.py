@@ -31,7 +31,7 @@ class Material(NamedTuple):
     curve: analytic.Curve
     pressures: tuple[float, ...] = (1.5, 3.0, 6.0, 10.0)
     stiff: bool = False
-    levels: int = 3  # resolutions that its steps need: 4 where the front is weak or nearly linear, hence wide
+    zones: int = 120  # coarsest resolution of its steps: finer where a weak or nearly linear front is many zones wide
 
 
 def epph() -> Material:
@@ -58,7 +58,7 @@ def table() -> Material:
 def rph() -> Material:
     """Hardening from the first, elastic below."""
     law = RPH(density=DENSITY, modulus=MODULUS, plateau_stress=PLATEAU, hardening=0.1e6)
-    return Material("rph", law, analytic.RPH(DENSITY, MODULUS, PLATEAU, 0.1e6), levels=4)
+    return Material("rph", law, analytic.RPH(DENSITY, MODULUS, PLATEAU, 0.1e6), zones=600)
 
 
 def trilinear(ratio: float) -> Material:
@@ -66,19 +66,19 @@ def trilinear(ratio: float) -> Material:
     foam = FOAM | {"densification_strain": min(DENSIFICATION, 0.95 - 9.0 / ratio)}
     law = Trilinear(**foam, locking_modulus=ratio * PLATEAU)
     curve = analytic.Trilinear(*foam.values(), ratio * PLATEAU)
-    return Material(f"trilinear-{ratio:g}", law, curve, stiff=ratio > 100.0, levels=4 if ratio < 20.0 else 3)
+    return Material(f"trilinear-{ratio:g}", law, curve, stiff=ratio > 100.0, zones=240 if ratio < 20.0 else 120)
 
 
 def rppl(stiffness: float = STIFFNESS, density: float = DENSITY, plateau: float = PLATEAU, locking: float = DENSIFICATION) -> Material:
     """R-P-P-L at a finite stiffness."""
     law = RPPL(density=density, plateau_stress=plateau, densification_strain=locking, stiffness=stiffness)
-    return Material("rppl", law, analytic.stiff_rppl(density, plateau, locking, stiffness * plateau), stiff=True)
+    return Material("rppl", law, analytic.stiff_rppl(density, plateau, locking, stiffness * plateau), stiff=True, zones=240)
 
 
 def eppr() -> Material:
     """Elastic and plastic as the others, then nearly rigid."""
     law = EPPR(**FOAM, stiffness=STIFFNESS)
-    return Material("eppr", law, analytic.stiff_eppr(*FOAM.values(), STIFFNESS * PLATEAU), stiff=True)
+    return Material("eppr", law, analytic.stiff_eppr(*FOAM.values(), STIFFNESS * PLATEAU), stiff=True, zones=240)
 
 
 def with_a_shock() -> list[Material]:
