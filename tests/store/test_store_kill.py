@@ -71,8 +71,9 @@ def check(path, said):
             same(run, {k: v[:rows] if k.startswith(("history", "probes")) else v for k, v in arrays.items()})
     checkpoints = [read_checkpoint(found) for found in path.parent.glob("run.checkpoint-*.h5")]
     assert len(checkpoints) <= 3
-    for number in [line[1] for line in said if line[0] == "checkpoint"][-2:]:
-        assert 35 * int(number) in [checkpoint.cycle for checkpoint in checkpoints]
+    written = [35 * int(line[1]) for line in said if line[0] == "checkpoint"]
+    assert not written or max(written) in [checkpoint.cycle for checkpoint in checkpoints]
+    assert len(checkpoints) >= min(len(written), 2)
     for checkpoint in checkpoints:
         restart(path.with_name("again.h5"), checkpoint)
 
