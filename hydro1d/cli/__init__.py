@@ -10,7 +10,6 @@ import argparse
 import contextlib
 import importlib
 import os
-import pkgutil
 import signal
 import sys
 import threading
@@ -40,7 +39,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def commands() -> list[str]:
     """Names of the subcommands: the modules of this package."""
-    return sorted(module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_")
+    files = (name for folder in __path__ for name in os.listdir(folder))
+    return sorted({name[:-3] for name in files if name.endswith(".py") and not name.startswith(("_", "."))})
 
 
 def _guarded(arguments: list[str]) -> int:

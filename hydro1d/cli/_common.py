@@ -6,12 +6,22 @@ import argparse
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def path(text: str) -> Path:
+    """A file's name as a Path, imported only when one is given."""
+    from pathlib import Path
+
+    return Path(text)
 
 
 def add_deck(parser: argparse.ArgumentParser) -> None:
     """The deck and what overrides its values."""
-    parser.add_argument("deck", metavar="DECK", type=Path, help="the deck, a TOML file")
+    parser.add_argument("deck", metavar="DECK", type=path, help="the deck, a TOML file")
     parser.add_argument(
         "--set", metavar="PATH=VALUE", action="append", default=[], dest="overrides",
         help="put a value in place of the deck's, for example layer[0].zones=2000; can be repeated",

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import inspect
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -42,20 +40,29 @@ def _overview() -> list[str]:
 
 def first_line(cls: type[Component]) -> str:
     """The first line of a component's description."""
-    return (inspect.getdoc(cls) or "").split("\n")[0]
+    return description(cls)[0]
+
+
+def description(cls: type[Component]) -> list[str]:
+    """The lines of a component's docstring."""
+    import inspect
+
+    return (inspect.getdoc(cls) or "").split("\n")
 
 
 def _entry(name: str) -> list[str]:
     found = _classes(name)
     lines = []
     for kind, cls in found:
-        lines += [f'{kind}: {KINDS[kind]}"{name}"', "", *(inspect.getdoc(cls) or "").split("\n"), "", "keys:"]
+        lines += [f'{kind}: {KINDS[kind]}"{name}"', "", *description(cls), "", "keys:"]
         lines += [*keys(cls), ""]
     return lines[:-1]
 
 
 def _classes(name: str) -> list[tuple[str, type[Component]]]:
     """A name may stand for several things ("table" is a law and a pulse)."""
+    from pathlib import Path
+
     from hydro1d.deck.messages import suggestion
     from hydro1d.errors import DeckError
     from hydro1d.plugins import available, find

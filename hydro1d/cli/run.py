@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hydro1d.cli import _common
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from hydro1d.deck import Deck
     from hydro1d.store import Run
 
@@ -19,9 +20,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d run``."""
     _common.add_deck(parser)
     parser.add_argument(
-        "-o", "--output", metavar="FILE", type=Path, help="result; default: the deck's name with .h5, here"
+        "-o", "--output", metavar="FILE", type=_common.path, help="result; default: the deck's name with .h5, here"
     )
-    parser.add_argument("--restart", metavar="FILE", type=Path, help="go on from a checkpoint")
+    parser.add_argument("--restart", metavar="FILE", type=_common.path, help="go on from a checkpoint")
     parser.add_argument(
         "--force", action="store_true", help="restart although deck or law differ from the checkpoint's"
     )
@@ -33,7 +34,7 @@ def run(args: argparse.Namespace) -> None:
     from hydro1d.deck import load_deck
 
     deck = load_deck(args.deck, args.overrides)
-    output = args.output or Path(args.deck.stem + ".h5")
+    output = args.output or _common.path(args.deck.stem + ".h5")
     from hydro1d.store import check_target
 
     check_target(output)

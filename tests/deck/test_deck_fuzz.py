@@ -1,5 +1,6 @@
 """Any text and any data is a deck or a DeckError, soon. The long run: ``python -m pytest -m slow tests/deck``."""
 
+import copy
 import os
 import time
 
@@ -103,9 +104,9 @@ def mutated_data(draw):
         key = draw(st.sampled_from(list(table) if isinstance(table, dict) else list(range(len(table)))))
         action = draw(st.sampled_from(["odd", "any", "delete", "rename"]))
         if action == "odd":
-            table[key] = draw(st.sampled_from(ODD))
+            table[key] = copy.deepcopy(draw(st.sampled_from(ODD)))
         elif action == "any":
-            table[key] = draw(plain)
+            table[key] = copy.deepcopy(draw(plain))
         elif action == "delete":
             del table[key]
         elif isinstance(table, dict):
