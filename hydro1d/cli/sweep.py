@@ -1,0 +1,77 @@
+"""``hydro1d sweep``: a table over parameters."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hydro1d.cli import _common
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+HELP = "run a deck over lists, ranges, grids or samples of its keys: one table"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of ``hydro1d sweep``."""
+    parser.add_argument("sweep", metavar="SWEEP.toml", type=Path, help="base deck, parameters and quantities")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", type=Path,
+        help="table as HDF5, with a CSV file beside it; default: the sweep's name with .h5, here",
+    )  # fmt: skip
+    parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="run on the Dask cluster of this scheduler")
+    parser.add_argument("--fresh", action="store_true", help="begin anew, whatever an interrupted sweep has left")
+    parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+
+
+def run(args: argparse.Namespace) -> None:
+    """Check, run, write HDF5 and CSV."""
+    from hydro1d.errors import DeckError
+    from hydro1d.store import check_target
+    from hydro1d.sweep import load_sweep, run_sweep
+    from hydro1d.sweep.table import check_text_target
+
+    if args.threads is not None and args.threads < 1:
+        raise DeckError(f"--threads {args.threads}: at least 1")
+    sweep = load_sweep(args.sweep)
+    output = args.output or Path(args.sweep.stem + ".h5")
+    if output.suffix == ".csv":
+        raise DeckError(f"-o {output}: name the HDF5 file; the CSV file comes beside it")
+    target, table_file = check_target(output), output.with_suffix(".csv")
+    check_text_target(table_file)
+    journal = target.with_suffix(".journal")
+    with _common.progress_bar(args.quiet) as progress, _executor(args.scheduler) as executor:
+        table = run_sweep(
+            sweep, executor=executor, threads=args.threads, journal=journal, fresh=args.fresh, progress=progress
+        )  # fmt: skip
+    table.write_hdf5(output)
+    table.write_csv(table_file)
+    journal.unlink(missing_ok=True)
+    if not args.quiet:
+        failed = sum(status == "failed" for status in table["status"]) if len(table) else 0
+        print(f"{_common.count(len(table), 'run')}, {failed} failed\ntable: {output}, {table_file}")
+
+
+@contextmanager
+def _executor(address: str | None) -> Iterator[Executor | None]:
+    """A Dask cluster as an executor, or None for threads."""
+    if address is None:
+        yield None
+        return
+    from hydro1d.errors import DeckError, FileProblem
+
+    try:
+        from distributed import Client
+    except ImportError:
+        raise DeckError("--scheduler needs Dask: pip install 'hydro1d[sweep]'") from None
+    try:
+        client = Client(address, timeout=10)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise FileProblem(f"no Dask scheduler answers at {address}: {error}") from None
+    with client:
+        yield client.get_executor(pure=False)

@@ -1,0 +1,33 @@
+"""Many runs: tables over parameters, and the value of a deck's key at which an outcome flips."""
+
+from hydro1d.sweep.critical import Critical, critical, trace
+from hydro1d.sweep.flip import Flip, NoFlip, find_flip
+from hydro1d.sweep.job import Job, evaluate
+from hydro1d.sweep.outcome import Outcome, parse_outcome
+from hydro1d.sweep.plan import Parameter, Sweep, load_sweep
+from hydro1d.sweep.quantity import Quantity, parse_quantity, quantity_names
+from hydro1d.sweep.run import run_sweep
+from hydro1d.sweep.table import Column, Table, read_table
+
+__all__ = [
+    "Column",
+    "Critical",
+    "Flip",
+    "Job",
+    "NoFlip",
+    "Outcome",
+    "Parameter",
+    "Quantity",
+    "Sweep",
+    "Table",
+    "critical",
+    "evaluate",
+    "find_flip",
+    "load_sweep",
+    "parse_outcome",
+    "parse_quantity",
+    "quantity_names",
+    "read_table",
+    "run_sweep",
+    "trace",
+]

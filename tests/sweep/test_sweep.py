@@ -1,0 +1,206 @@
+"""Sweeps: points, quantities, failed runs, resuming, the same bits however they are run."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from hydro1d.cli import main
+from hydro1d.errors import DeckError, FileProblem, Interrupted
+from hydro1d.sweep import Parameter, Sweep, load_sweep, parse_quantity, read_table, run_sweep
+
+DECK = """
+[material.foam]
+law = "epph"
+density = "51.6 kg/m^3"
+modulus = "22 MPa"
+plateau_stress = "0.8 MPa"
+densification_strain = 0.689
+shock_slope = "0.00105 s/m"
+[[layer]]
+material = "foam"
+thickness = "1 m"
+zones = 40
+[left]
+type = "pressure"
+pulse = "rectangular"
+peak = "3.6 MPa"
+duration = "1.53 ms"
+[right]
+type = "wall"
+[time]
+end = "7 ms"
+"""
+SWEEP = """
+deck = "pulse.toml"
+set = ["layer[0].zones=30"]
+quantities = ["peak_support_stress", "uncrushed_fraction", "max(left_velocity)"]
+[[parameter]]
+key = "left.peak"
+values = ["2 MPa", 3e6, "9 MPa"]
+[[parameter]]
+key = "left.duration"
+column = "duration"
+first = "1 ms"
+last = "2 ms"
+count = 2
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "pulse.toml").write_text(DECK)
+    (tmp_path / "sweep.toml").write_text(SWEEP)
+    return tmp_path
+
+
+def test_table_of_a_grid(folder):
+    table = run_sweep(load_sweep(folder / "sweep.toml"))
+    assert list(table["left.peak"]) == [2e6, 2e6, 3e6, 3e6, 9e6, 9e6]
+    assert list(table["duration"]) == [1e-3, 2e-3] * 3
+    assert list(table["status"][:4]) == ["complete"] * 4
+    assert np.all(np.diff(table["uncrushed_fraction"][:2]) < 0)
+    assert 150 < table["max(left_velocity)"][0] < 200
+
+
+def test_a_failed_run_is_a_row_with_its_error(folder):
+    table = run_sweep(load_sweep(folder / "sweep.toml"))
+    assert list(table["status"][4:]) == ["failed"] * 2
+    assert "epph-tangent" in table["error"][4]
+    assert math.isnan(table["peak_support_stress"][4])
+
+
+def test_hdf5_and_csv_hold_the_same(folder):
+    table = run_sweep(load_sweep(folder / "sweep.toml"))
+    table.write_hdf5(folder / "t.h5")
+    again = read_table(folder / "t.h5")
+    assert again.csv() == table.csv()
+    assert again.columns["peak_support_stress"].units == "Pa"
+
+
+def test_threads_and_processes_do_not_change_a_bit(folder):
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    sweep = load_sweep(folder / "sweep.toml")
+    one = run_sweep(sweep, threads=1).csv()
+    assert run_sweep(sweep, threads=2).csv() == one
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        assert run_sweep(sweep, executor=pool).csv() == one
+
+
+@pytest.mark.slow
+def test_dask_cluster_does_not_change_a_bit(folder, monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.chdir(folder)
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        assert main(["sweep", "sweep.toml", "-o", "dask.h5", "--quiet", "--scheduler", cluster.scheduler_address]) == 0
+    assert main(["sweep", "sweep.toml", "-o", "threads.h5", "--quiet"]) == 0
+    assert (folder / "dask.csv").read_bytes() == (folder / "threads.csv").read_bytes()
+    assert (folder / "dask.h5").read_bytes() == (folder / "threads.h5").read_bytes()
+
+
+class Killed(KeyboardInterrupt):
+    pass
+
+
+def test_an_interrupted_sweep_goes_on(folder):
+    sweep, journal = load_sweep(folder / "sweep.toml"), folder / "j.journal"
+    whole = run_sweep(sweep).csv()
+
+    def kill(share):
+        if share >= 0.5:
+            raise Killed
+
+    with pytest.raises(Interrupted, match="of 6 runs"):
+        run_sweep(sweep, threads=1, journal=journal, progress=kill)
+    done = journal.read_text().splitlines()
+    assert 1 < len(done) < 7
+    with journal.open("a") as file:
+        file.write('{"run": 5, "row": {"torn')
+    shares = []
+    assert run_sweep(sweep, threads=1, journal=journal, progress=shares.append).csv() == whole
+    assert len(shares) == 6 - (len(done) - 1)
+    assert len([json.loads(line) for line in journal.read_text().splitlines()]) == 7
+
+
+def test_the_journal_of_another_sweep_is_refused(folder):
+    journal = folder / "j.journal"
+    run_sweep(load_sweep(folder / "sweep.toml"), journal=journal)
+    (folder / "sweep.toml").write_text(SWEEP.replace("3e6", "3.1e6"))
+    with pytest.raises(FileProblem, match="another sweep"):
+        run_sweep(load_sweep(folder / "sweep.toml"), journal=journal)
+    run_sweep(load_sweep(folder / "sweep.toml"), journal=journal, fresh=True)
+
+
+def test_samples_are_the_same_for_the_same_seed(folder):
+    def points(plan, seed):
+        parameters = [Parameter(key="left.peak", first="1.5 MPa", last="10 MPa", spacing="log")]
+        sweep = Sweep.of(folder / "pulse.toml", parameters, ["enhancement"], plan=plan, samples=8, seed=seed)
+        return [point[0] for point in sweep.points()]
+
+    for plan in ("sobol", "halton", "latin-hypercube", "random"):
+        assert points(plan, 1) == points(plan, 1) != points(plan, 2)
+        assert all(1.5e6 <= value <= 10e6 for value in points(plan, 1))
+
+
+def test_zip_and_linked_keys(folder):
+    parameters = [
+        Parameter(key=("layer[0].zones",), first=20, last=40, count=3, integer=True),
+        Parameter(key=("left.peak", "material.foam.plateau_stress"), column="p", values=(1e6, 2e6, 3e6)),
+    ]
+    jobs = Sweep.of(folder / "pulse.toml", parameters, ["enhancement"], plan="zip").jobs()
+    deck = jobs[1].deck()
+    assert (deck.layers[0].zones, deck.left.peak(), deck.layers[0].law.plateau_stress) == (30, 2e6, 2e6)
+
+
+@pytest.mark.parametrize(
+    ("change", "texts"),
+    [
+        (("left.peak", "left.peek"), ["parameter[0].values[0]", "did you mean peak", "line 7"]),
+        (("3e6", '"3 mm"'), ["line 7, column 20", "parameter[0].values[1]", "length"]),
+        (("count = 2", ""), ["parameter[1].count", "is missing"]),
+        (("count = 2", "number = 2"), ["unknown key", "count"]),
+        (('"peak_support_stress"', '"peak_suport_stress"'), ["quantities[0]", "did you mean peak_support_stress"]),
+        (("max(left_velocity)", "max(left_velocty)"), ["did you mean left_velocity"]),
+        (("max(left_velocity)", "__import__('os')"), ["takes no argument"]),
+        (("pulse.toml", "puls.toml"), ["cannot be read", "line 2"]),
+        (('first = "1 ms"', 'first = "1 MPa"'), ["parameter[1].first", "pressure"]),
+        (("zones=30", "zonse=30"), ["zonse", "did you mean zones"]),
+    ],
+)
+def test_mistakes_are_told_like_a_decks(folder, change, texts):
+    (folder / "sweep.toml").write_text(SWEEP.replace(*change))
+    if not texts:
+        return
+    with pytest.raises(DeckError) as caught:
+        load_sweep(folder / "sweep.toml")
+    for text in texts:
+        assert text in str(caught.value)
+
+
+def test_no_quantity_is_evaluated():
+    for text in ("1+1", "max()", "max(max(x))", "exit()", "front_arrival(x)"):
+        with pytest.raises(ValueError, match=r"."):
+            parse_quantity(text)
+
+
+def test_command_line(folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    assert main(["sweep", "sweep.toml"]) == 0
+    out = capsys.readouterr()
+    assert "6 runs, 2 failed" in out.out
+    assert out.err == ""
+    assert (folder / "sweep.csv").read_text().startswith("run,left.peak,duration,peak_support_stress")
+    assert not (folder / "sweep.journal").exists()
+    (folder / "sweep.csv").write_text("mine")
+    assert main(["sweep", "sweep.toml"]) == 4
+    assert (folder / "sweep.csv").read_text() == "mine"
+
+
+def test_energy_shares_add_up(folder):
+    names = ["crushing_share", "front_share", "elastic_share", "kinetic_share"]
+    sweep = Sweep.of(folder / "pulse.toml", [Parameter(key="left.duration", values=("1 ms",))], names)
+    table = run_sweep(sweep)
+    assert sum(table[name][0] for name in names) == pytest.approx(1.0, abs=1e-9)
