@@ -43,7 +43,7 @@ profiles = 40
 history = 3
 probes = ["0.25 m", "0.5 m"]
 [checkpoint]
-cycles = 40
+cycles = 20
 """
 
 
@@ -82,7 +82,7 @@ def whole(tmp_path_factory):
 
 
 def test_checkpoints_change_nothing(whole, tmp_path):
-    hydro1d.run(DECK.replace("[checkpoint]\ncycles = 40", ""), tmp_path / "b.h5")
+    hydro1d.run(DECK.replace("[checkpoint]\ncycles = 20", ""), tmp_path / "b.h5")
     same(whole[0], tmp_path / "b.h5")
 
 
@@ -107,7 +107,7 @@ def test_restart_from_every_checkpoint(whole, tmp_path):
 def test_checkpoints_at_the_times_of_profiles(tmp_path, monkeypatch, when):
     monkeypatch.setattr(writer, "KEPT_CHECKPOINTS", 10**6)
     plan = f"time = {0.008 / 39!r}" if when == "every profile" else "cycles = 1"
-    deck = DECK.replace("cycles = 40", plan).replace("8 ms", "0.2 ms" if when == "every cycle" else "8 ms")
+    deck = DECK.replace("cycles = 20", plan).replace("8 ms", "0.2 ms" if when == "every cycle" else "8 ms")
     hydro1d.run(deck, tmp_path / "a.h5")
     checkpoints = sorted(tmp_path.glob("a.checkpoint-*.h5"), key=writer._cycle)
     for checkpoint in checkpoints[:: max(len(checkpoints) // 10, 1)]:
@@ -125,7 +125,7 @@ def test_chain(whole, tmp_path, monkeypatch):
 
     def stop(self, state):
         original(self, state)
-        if state.cycle >= 40 * (count + 1):
+        if state.cycle >= 20 * (count + 1):
             raise Stop
 
     monkeypatch.setattr(writer.Hdf5Sink, "checkpoint", stop)
