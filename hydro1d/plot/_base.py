@@ -1,0 +1,166 @@
+"""What all figures share: how they look, where the data come from, how they are written."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from hydro1d.errors import DeckError, FileProblem
+from hydro1d.plot._units import Scale, scale_for, words
+
+if TYPE_CHECKING:
+    from hydro1d.store import Run
+
+    RunOrPath = Run | str | os.PathLike[str]
+
+# Okabe & Ito's colours, told apart by colour-blind readers; black is for laws and theory.
+PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C6D31", "#000000")
+GREY = "#777777"
+SEQUENTIAL, DIVERGING = "viridis", "RdBu_r"
+FORMATS = (".png", ".svg", ".pdf")
+
+
+class Picture(Figure):
+    """A matplotlib Figure that a notebook shows by itself; no pyplot, hence no global state."""
+
+    def _repr_png_(self) -> bytes:
+        stream = io.BytesIO()
+        self.savefig(stream, format="png", dpi=100)
+        return stream.getvalue()
+
+
+def new_figure(
+    rows: int = 1, columns: int = 1, size: tuple[float, float] = (6.4, 4.0), **options: Any
+) -> tuple[Any, Any]:
+    """A Picture and its Axes, an array (rows, columns); `size` in inches."""
+    figure = Picture(figsize=size, layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False, **options)
+    for one in axes.flat:
+        dress(one)
+    return figure, axes
+
+
+def dress(axes: Axes) -> None:
+    """The common look of all axes."""
+    axes.set_prop_cycle(color=list(PALETTE))
+    axes.grid(True, color="#e4e4e4", linewidth=0.6)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_color(GREY)
+    axes.tick_params(color=GREY, labelsize=9)
+    axes.xaxis.label.set_fontsize(10)
+    axes.yaxis.label.set_fontsize(10)
+
+
+def legend(axes: Axes, **options: Any) -> None:
+    """A legend without a frame, if anything is labelled."""
+    if axes.get_legend_handles_labels()[0]:
+        look = {"fontsize": 8, "frameon": True, "framealpha": 0.85, "edgecolor": "none", "borderpad": 0.2}
+        axes.legend(**{**look, **options})
+
+
+def keep_in_view(axes: Axes, values: np.ndarray) -> None:
+    """Limit the vertical axis where a few values lie many times farther out than all the rest.
+
+    A foam that bears no tension opens without bound at a free end; its strain there must not flatten all other lines.
+    """
+    finite = values[np.isfinite(values)]
+    if not len(finite):
+        return
+    low, high = (float(bound) for bound in np.percentile(finite, (0.5, 99.5)))
+    reach = high - low
+    if reach <= 0.0:
+        return
+    least, most = float(finite.min()), float(finite.max())
+    if least < low - 3.0 * reach or most > high + 3.0 * reach:
+        bottom = low if least < low - 3.0 * reach else least
+        top = high + 0.2 * reach if most > high + 3.0 * reach else most
+        axes.set_ylim(bottom - 0.06 * reach, top + 0.06 * reach)
+
+
+def as_run(run: RunOrPath) -> Run:
+    """The run itself, or the one in the file. Raises FileProblem."""
+    from hydro1d.store import Run, open_run
+
+    return run if isinstance(run, Run) else open_run(run)
+
+
+def name_of(run: Run) -> str:
+    """What to call a run in messages and legends."""
+    return str(run.path) if run.path is not None else run.title or "run"
+
+
+def heading(run: Run) -> str:
+    """Title of a run, with its status where that is not `complete`."""
+    state = {"complete": "", "running": " (partial: not finished)"}.get(run.status, f" ({run.status})")
+    return _plain((run.title or (run.path.stem if run.path else "")) + state)
+
+
+def _plain(text: str) -> str:
+    """Text in which matplotlib sees no formula, cut to a line."""
+    text = text if len(text) <= 90 else text[:88] + "…"
+    return text.replace("$", r"\$")
+
+
+def times_of(run: Run, least: int = 1) -> np.ndarray:
+    """Times of the profiles, s. Raises FileProblem where there are fewer than `least`."""
+    time = run.time if "time" in run else np.empty(0)
+    if len(time) < least:
+        held = "no profile" if len(time) == 0 else f"only {len(time)} profile" + "s" * (len(time) > 1)
+        raise FileProblem(f"{name_of(run)} holds {held}; this figure needs {least} (status: {run.status})")
+    return time
+
+
+def scaled(run: Run, path: str, values: Any = None) -> tuple[Scale, str]:
+    """Display unit and axis label of a quantity ("stress", "history/right_stress")."""
+    scale = scale_for(run.describe(path).units, run[path] if values is None else values)
+    return scale, scale.label(words(path.rpartition("/")[2]))
+
+
+def profile_quantity(run: Run, name: str) -> np.ndarray:
+    """Values (time, zone) or (time, node). Raises FileProblem for anything else, with what there is."""
+    if name in run:
+        values = run[name]
+        if run.describe(name).dimensions in (("time", "zone"), ("time", "node")):
+            return values
+    there = [key for key in run if run.describe(key).dimensions[:1] == ("time",) and key != "time"]
+    raise FileProblem(f"{name_of(run)} has no profiles of {name[:80]!r}; it has {', '.join(there) or 'none'}")
+
+
+def nearest(time: np.ndarray, wanted: Sequence[float], name: str) -> list[int]:
+    """Indices of the profiles nearest to times (s). Raises FileProblem beyond the last."""
+    late = [value for value in wanted if not -1e-12 <= value <= time[-1] * (1 + 1e-6) + 1e-12]
+    if late:
+        scale = scale_for("s", time)
+        first, last, asked = (scale.show(float(value)) for value in (time[0], time[-1], late[0]))
+        raise FileProblem(f"{name} has profiles from {first} to {last}, not at {asked}")
+    return list(dict.fromkeys(int(np.argmin(np.abs(time - value))) for value in wanted))
+
+
+def interfaces(run: Run) -> np.ndarray:
+    """Numbers of the nodes between two layers."""
+    return np.array([layer.zones.start for layer in run.layers[1:]], dtype=int)
+
+
+def save(figure: Figure, path: str | os.PathLike[str], dpi: int = 150) -> Path:
+    """Write PNG, SVG or PDF, by the name's ending. Raises DeckError for another ending, FileProblem for a bad place."""
+    target = Path(path)
+    if target.suffix.lower() not in FORMATS:
+        raise DeckError(f"{target}: a figure's name ends in {', '.join(FORMATS)}")
+    dates = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(target.suffix.lower())
+    try:
+        with matplotlib.rc_context({"svg.hashsalt": "hydro1d"}):
+            figure.savefig(target, dpi=dpi, metadata=dates)
+    except OSError as error:
+        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
+    return target

@@ -1,0 +1,108 @@
+"""The laws of a run or a deck, and what their curves say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from hydro1d.errors import DeckError, Hydro1dError
+
+if TYPE_CHECKING:
+    from hydro1d.deck import Deck
+    from hydro1d.laws.base import Law
+    from hydro1d.store import Run
+
+
+def deck_of(run: Run, deck: Deck | str | Path | None = None) -> Deck | None:
+    """The deck that a figure takes its laws from: the one given, else the run's own.
+
+    None where the run's deck names Python files of its user: they are not run for a figure unless the user names the
+    deck.
+    """
+    from hydro1d.deck import Deck, load_deck
+
+    if deck is not None:
+        return deck if isinstance(deck, Deck) else load_deck(deck)
+    kinds = [str(law.get("law", "")) for law in run.deck.get("material", {}).values()]
+    kinds += [str(run.deck.get(side, {}).get(key, "")) for side in ("left", "right") for key in ("type", "pulse")]
+    if any(".py" in kind for kind in kinds):
+        return None
+    try:
+        return load_deck(run.deck)
+    except Hydro1dError:  # a law that this installation does not have
+        return None
+
+
+def loads_by_strain(law: Law) -> bool:
+    """Whether the law is a curve of the strain: gases and laws that need energy or rate are not."""
+    return callable(getattr(law, "loading", None))
+
+
+class Hugoniot(NamedTuple):
+    """Compaction shocks from the yield point, arrays over the strain behind them; SI.
+
+    strain; stress; velocity_jump [v]; front_speed [v]/[ε], Lagrangian; shock_energy ½(σA + σB)[ε] and curve_energy, the
+    area under the curve, both per initial volume from the yield point on.
+    """
+
+    strain: np.ndarray
+    stress: np.ndarray
+    velocity_jump: np.ndarray
+    front_speed: np.ndarray
+    shock_energy: np.ndarray
+    curve_energy: np.ndarray
+
+
+def curve(law: Law, strains: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Loading stress and tangent (Pa) at strains."""
+    answers = np.array([law.loading(float(strain)) for strain in strains])  # type: ignore[attr-defined]
+    return answers[:, 0], answers[:, 1]
+
+
+def strain_grid(law: Law, top: float, points: int = 600) -> np.ndarray:
+    """Strains from 0 to `top` with the corners of the curve among them."""
+    corners = [getattr(law, name, None) for name in ("yield_strain", "densification")]
+    inside = [float(value) for value in corners if value is not None and 0.0 < float(value) < top]
+    return np.unique(np.concatenate([np.linspace(0.0, top, points), inside]))
+
+
+def top_strain(law: Law, ratio: float = 12.0) -> float:
+    """A strain to draw the curve to: where the stress is `ratio` times the yield stress, short of 1."""
+    found = float(law.strain_at(ratio)) if hasattr(law, "strain_at") else 0.5  # type: ignore[attr-defined]
+    return min(max(found, 0.02), 0.995)
+
+
+def hugoniot_of(law: Law, top: float) -> Hugoniot:
+    """States behind single shocks from yield (Eqs. 35, 37) for the strains where the chord stays above the curve."""
+    start = float(getattr(law, "yield_strain", 0.0))
+    strain = strain_grid(law, top, 1200)
+    stress, _ = curve(law, strain)
+    yielded = float(np.interp(start, strain, stress))
+    keep = strain > start
+    energy = np.concatenate([[0.0], np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(strain))])
+    spent = energy - np.interp(start, strain, energy)
+    chord = np.divide(stress - yielded, strain - start, out=np.full(len(strain), -np.inf), where=keep)
+    steepest = np.maximum.accumulate(np.where(keep, chord, -np.inf))
+    keep &= (chord >= steepest * (1.0 - 1e-9)) & (stress > yielded * (1.0 + 1e-9))
+    rise, change = (stress - yielded)[keep], (strain - start)[keep]
+    density = law.density
+    return Hugoniot(
+        strain[keep],
+        stress[keep],
+        np.sqrt(rise * change / density),
+        np.sqrt(rise / change / density),
+        0.5 * (stress[keep] + yielded) * change,
+        spent[keep],
+    )
+
+
+def law_of_deck(deck: Deck, material: str | None = None) -> tuple[str, Law]:
+    """Name and law of one material of a deck, the first without a name. Raises DeckError with the names there are."""
+    laws = {layer.material: layer.law for layer in deck.layers}
+    if material is None:
+        return next(iter(laws.items()))
+    if material not in laws:
+        raise DeckError(f"no layer of material {material[:80]!r}; there are {', '.join(laws)}")
+    return material, laws[material]
