@@ -131,7 +131,14 @@ class Foam(Law):
         is a linear one with the speed of waves on the secant of the hardening.
         """
         beyond = min(self.hardening_strain, closing * self.hardening_slowness + 1e-30)
-        return min(1.0 - strain, max(self.densification - strain, 0.0) + beyond)
+        locked = max(self.densification - strain, 0.0) + beyond
+        return min(1.0 - strain, locked if self.locks > 0.0 else 1.0)
+
+    @derived
+    def locks(self) -> float:
+        """1 for a curve with a plateau: at least a quarter of the way from yield to twice its stress is nearly flat."""
+        yielded, doubled = min(self.yield_strain, 1.0), self.strain_at(2.0)
+        return float(self.strain_at(1.05) - yielded >= 0.25 * (doubled - yielded))
 
     @derived
     def hardening_strain(self) -> float:
@@ -214,3 +221,8 @@ class PlateauFoam(Foam):
     def densification(self) -> float:
         """εD."""
         return self.densification_strain
+
+    @derived
+    def locks(self) -> float:
+        """Always: the plateau is there by definition."""
+        return 1.0
