@@ -79,7 +79,9 @@ def check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:
 
 def _sentence(error: BaseException) -> str:
     text = str(error).strip() or "no message"
-    return text if isinstance(error, ValueError | Hydro1dError) else f"raised {type(error).__name__}: {shorten(text, 200)[1:-1]}"
+    if isinstance(error, ValueError | Hydro1dError):
+        return text
+    return f"raised {type(error).__name__}: {shorten(text, 200)[1:-1]}"
 
 
 def _check_end(side: str, boundary: Boundary | None, layers: Sequence[Layer]) -> list[Finding]:

@@ -51,7 +51,7 @@ LAWS = {
     "eph": {"density": 51.6, "modulus": 22e6, "yield_stress": 0.8e6, "hardening_modulus": 1e6},
     "trilinear": FOAM | {"locking_modulus": 40e6},
     "rph": {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "hardening": 0.1e6},
-    "table": {"density": 51.6, "modulus": 22e6, "curve": [[0.0, 0.8e6], [0.6, 1e6], [0.8, 10e6]]},
+    "table": {"density": 51.6, "modulus": 22e6, "curve": [[0.05, 0.8e6], [0.6, 1e6], [0.8, 10e6]]},
     "ideal-gas": {"density": 1.0, "gamma": 1.4, "pressure": 1e5},
 }
 

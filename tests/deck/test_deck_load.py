@@ -145,7 +145,7 @@ def test_samples_cover_everything_built_in():
 
 def test_files_are_relative_to_the_deck(tmp_path, monkeypatch):
     (tmp_path / "deck").mkdir()
-    (tmp_path / "deck" / "curve.csv").write_text("strain,stress (MPa)\n0,0.8\n0.6,1\n0.8,10\n")
+    (tmp_path / "deck" / "curve.csv").write_text("strain,stress (MPa)\n0.05,0.8\n0.6,1\n0.8,10\n")
     text = MAIN.replace('law = "epph"', 'law = "table"\ncurve = "curve.csv"')
     text = "\n".join(line for line in text.split("\n") if not line.startswith(("plateau", "densif", "shock")))
     (tmp_path / "deck" / "main.toml").write_text(text)
