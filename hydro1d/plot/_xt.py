@@ -124,7 +124,7 @@ def _draw_fronts(axes: Axes, run: Run, frame: str) -> None:
         handles += axes.plot(where / length, time / clock, color=colour, linewidth=1.3, linestyle=line, label=name)
     if handles:
         found = axes.legend(
-            handles=handles, loc="best", fontsize=8, frameon=True, facecolor="#888888", edgecolor="none"
+            handles=handles, loc="upper left", fontsize=8, frameon=True, facecolor="#888888", edgecolor="none"
         )
         for text in found.get_texts():
             text.set_color("#ffffff")

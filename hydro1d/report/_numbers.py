@@ -1,0 +1,158 @@
+"""The numbers that answer what a user ran the code for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from hydro1d.errors import FileProblem
+from hydro1d.plot._base import name_of
+from hydro1d.plot._units import scale_for
+
+if TYPE_CHECKING:
+    from hydro1d.deck import Deck
+    from hydro1d.store import Run
+
+
+class Number(NamedTuple):
+    """A line of a table: what, how much, and a remark."""
+
+    label: str
+    value: str
+    remark: str = ""
+
+
+class Load(NamedTuple):
+    """Which end is loaded, which is the support, and the two peaks (Pa); applied is 0 where no pressure is given."""
+
+    loaded: str
+    support: str
+    applied: float
+    felt: float
+
+
+def load_of(run: Run) -> Load:
+    """The load, from the boundaries of the deck; the right end is the support where both or none is loaded."""
+    require_history(run)
+    driven = [side for side in ("left", "right") if run.deck.get(side, {}).get("pulse")]
+    moved = [side for side in ("left", "right") if run.deck.get(side, {}).get("type") in ("striker", "piston")]
+    sides = driven or moved
+    loaded = sides[0] if len(sides) == 1 else "left"
+    support = "right" if loaded == "left" else "left"
+    applied = float(run.attributes.get("peak_applied_pressure") or 0.0) if len(driven) == 1 else 0.0
+    return Load(loaded, support, applied, float(run.history[f"peak_{support}_stress"][-1]))
+
+
+def require_history(run: Run) -> None:
+    """Raise FileProblem for a run without a single row of history."""
+    if "time" not in run.history or not len(run.history["time"]):
+        raise FileProblem(f"{name_of(run)} holds no history yet (status: {run.status})")
+
+
+def headline(run: Run) -> str:
+    """The answer in a sentence or two."""
+    load = load_of(run)
+    felt = scale_for("Pa", load.felt).show(load.felt)
+    if load.applied > 0.0:
+        ratio = load.felt / load.applied
+        word = "Enhanced" if ratio > 1.0 else "Attenuated"
+        applied = scale_for("Pa", load.applied).show(load.applied)
+        text = f"{word}: the {load.support} end feels {felt} at most, {ratio:.3g} times the applied peak of {applied}."
+    else:
+        text = f"The {load.support} end feels {felt} at most."
+    left = uncrushed(run)
+    if left is None:
+        return text
+    return text + (" The column is fully crushed." if left <= 0.0 else f" {100 * left:.3g} % of it is not crushed.")
+
+
+def uncrushed(run: Run) -> float | None:
+    """Share of the column that is not crushed at the end; None where no layer can be crushed."""
+    if "uncrushed_fraction" not in run.history:
+        return None
+    value = float(run.history["uncrushed_fraction"][-1])
+    laws = {str(law.get("law")) for law in run.deck.get("material", {}).values()}
+    return None if not np.isfinite(value) or laws <= {"elastic", "ideal-gas"} else value
+
+
+def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
+    """Loads, crushing, steps."""
+    load, history = load_of(run), run.history
+    pressure = scale_for("Pa", [load.felt, load.applied])
+    rows = []
+    if load.applied > 0.0:
+        rows.append(Number("peak of the applied pressure", pressure.show(load.applied)))
+    rows.append(Number(f"peak stress on the support ({load.support} end)", pressure.show(load.felt), _when(run, load)))
+    if load.applied > 0.0:
+        ratio = load.felt / load.applied
+        rows.append(Number("support over applied", f"{ratio:.4g}", "enhanced" if ratio > 1.0 else "attenuated"))
+    peak = float(history["peak_stress"][-1])
+    rows.append(Number("largest stress anywhere", scale_for("Pa", peak).show(peak), "every cycle counted"))
+    left = uncrushed(run)
+    if left is not None:
+        rows.append(Number("uncrushed", f"{100 * left:.4g} %", "share of the column's length at the end"))
+    impulse = float(history["boundary_impulse"][-1])
+    rows.append(Number("impulse of both ends", scale_for("Pa s", impulse).show(impulse), "positive to the right"))
+    end = float(history["time"][-1])
+    cycles = run.attributes.get("cycles", "?")
+    wall = scale_for("s", float(run.attributes.get("wall_seconds") or 0.0))
+    rows.append(Number("calculated to", scale_for("s", end).show(end), f"{cycles} cycles"))
+    if run.attributes.get("wall_seconds"):
+        rows.append(Number("wall time of the loop", wall.show(float(run.attributes["wall_seconds"]), 3)))
+    if run.attributes.get("limiting_layer"):
+        rows.append(Number("layer that limits the time step", str(run.attributes["limiting_layer"])))
+    return rows
+
+
+def _when(run: Run, load: Load) -> str:
+    values = run.history[f"{load.support}_stress"]
+    time = float(run.history["time"][int(np.nanargmax(values))])
+    return f"at {scale_for('s', time).show(time, 3)}"
+
+
+def energy_numbers(run: Run, deck: Deck | None) -> list[Number]:
+    """The balance at the end, and where the energy went."""
+    require_history(run)
+    history = run.history
+    kinetic, internal = history["kinetic_energy"], history["internal_energy"]
+    work, viscous = float(history["boundary_work"][-1]), float(history["viscous_work"][-1])
+    scale = scale_for("J m-2", [work, kinetic, internal])
+    initial = float(kinetic[0] + internal[0])
+    gained = float(internal[-1] - internal[0])
+    rows = [
+        Number("at the start", scale.show(initial)),
+        Number("work of both ends", scale.show(work)),
+        Number("kinetic at the end", scale.show(float(kinetic[-1]))),
+        Number("internal at the end", scale.show(float(internal[-1]))),
+        Number("largest imbalance", f"{np.nanmax(np.abs(history['energy_error'])):.1e}", "over the energy put in"),
+    ]
+    if gained <= 1e-6 * (abs(work) + initial):
+        return rows
+    rows.append(
+        Number("dissipated in fronts", scale.show(viscous), f"{100 * viscous / gained:.3g} % of the internal gain")
+    )
+    stored = elastic_energy(run, deck)
+    if stored is not None:
+        rest = gained - viscous - stored
+        share = f"{100 * stored / gained:.3g} %"
+        rows.append(Number("stored elastically", scale.show(stored), share))
+        rows.append(Number("absorbed by crushing along the curve", scale.show(rest), f"{100 * rest / gained:.3g} %"))
+    return rows
+
+
+def elastic_energy(run: Run, deck: Deck | None) -> float | None:
+    """Energy (J/m²) that the column would give back on unloading; None where a law does not tell."""
+    if deck is None or len(run.time) == 0 or run.time[-1] < run.history["time"][-1] * (1 - 1e-9):
+        return None
+    size = np.diff(run["node_coordinate"])
+    strain, stress, largest = run["strain"][-1], run["stress"][-1], run["largest_strain"][-1]
+    total = 0.0
+    for layer, part in zip(deck.layers, run.layers, strict=True):
+        law = layer.law
+        if getattr(law, "unloading", None) != "elastic" or law.history:
+            return None
+        for zone in range(part.zones.start, part.zones.stop):
+            stiffness = law.point(float(strain[zone]), float(largest[zone]), 0.0, 0.0, ())[2]
+            total += 0.5 * float(stress[zone]) ** 2 / stiffness * float(size[zone])
+    return total

@@ -1,0 +1,219 @@
+"""The closed-form answer to a deck, where there is one: one layer, loaded on the left from rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from hydro1d import analytic
+from hydro1d.plot._frames import front_path
+from hydro1d.plot._units import Scale, scale_for
+
+if TYPE_CHECKING:
+    from hydro1d.analytic.compaction_column import CompactionColumn
+    from hydro1d.store import Run
+
+_DOI = "doi:10.1016/j.ijimpeng.2009.03.011"
+
+
+class Row(NamedTuple):
+    """A quantity by theory and as calculated, SI; the scale is how to show it."""
+
+    quantity: str
+    exact: float
+    measured: float
+    scale: Scale
+
+    @property
+    def difference(self) -> str:
+        """How far apart, relative where that makes sense."""
+        if self.exact == 0.0:
+            return self.scale.show(self.measured - self.exact, 2)
+        return f"{100 * (self.measured / self.exact - 1.0):+.2g} %"
+
+
+@dataclass(frozen=True)
+class Theory:
+    """A closed-form solution: name, where it stands, until when it holds (s), fields and fronts, the comparison."""
+
+    name: str
+    source: str
+    until: float
+    fields: Callable[[Any, Any], analytic.Fields]
+    jumps: Callable[[float], list[analytic.Jump]]
+    rows: tuple[Row, ...]
+
+
+def find_theory(run: Run) -> Theory | None:
+    """The theory that fits the run's deck, or None."""
+    deck = run.deck
+    layers = deck.get("layer", [])
+    if len(layers) != 1 or layers[0].get("velocity") or len(run.time) < 2 or "front_position" not in run.history:
+        return None
+    try:
+        curve = curve_of(deck["material"][layers[0]["material"]])
+        return None if curve is None else _solve(run, curve, float(layers[0]["thickness"]))
+    except (ValueError, KeyError):  # loads that the closed forms do not cover
+        return None
+
+
+def curve_of(law: dict[str, Any]) -> analytic.Curve | None:
+    """The loading curve of a law as the deck has it, for those laws that the theory knows."""
+    values = {
+        key: value for key, value in law.items() if isinstance(value, int | float) and not isinstance(value, bool)
+    }
+
+    def take(*names: str) -> list[float]:
+        return [float(values[name]) for name in names]
+
+    plateau = ("plateau_stress", "densification_strain")
+    kind = law.get("law")
+    if kind == "elastic":
+        return analytic.Elastic(*take("density", "modulus"))
+    if kind == "epph":
+        return analytic.EPPH(*take("density", "modulus", *plateau, "shock_slope"))
+    if kind == "epph-tangent":
+        return analytic.TangentEPPH(*take("density", "modulus", *plateau, "beta", "gamma"))
+    if kind == "trilinear":
+        return analytic.Trilinear(*take("density", "modulus", *plateau, "locking_modulus"))
+    if kind == "rppl":
+        density, stress, strain, ratio = take("density", *plateau, "stiffness")
+        return analytic.stiff_rppl(density, stress, strain, ratio * stress)
+    if kind == "eppr":
+        density, modulus, stress, strain, ratio = take("density", "modulus", *plateau, "stiffness")
+        return analytic.stiff_eppr(density, modulus, stress, strain, ratio * stress)
+    if kind == "eph":
+        return analytic.EPH(*take("density", "modulus", "yield_stress", "hardening_modulus"))
+    if kind == "rph":
+        return analytic.RPH(*take("density", "modulus", "plateau_stress", "hardening"))
+    return None
+
+
+def _solve(run: Run, curve: analytic.Curve, length: float) -> Theory | None:
+    left, right = run.deck["left"], run.deck["right"]
+    kind, fixed = left.get("type"), right.get("type") == "wall"
+    if kind == "pressure" and left.get("pulse") == "constant":
+        step = analytic.pressure_step(curve, float(left["peak"]), length)
+        return _step("Pressure step", step, run)
+    if kind == "pressure" and left.get("pulse") == "rectangular":
+        peak, duration = float(left["peak"]), float(left["duration"])
+        if fixed:
+            try:
+                pulse = analytic.CompactionPulse(curve, length, peak, duration)
+                return _column("Rectangular pulse, two compaction fronts", pulse, run, duration)
+            except ValueError:
+                pass  # no precursor ahead of one compaction shock: what holds during the pulse is left
+        return _step("Rectangular pulse, while it lasts", analytic.pressure_step(curve, peak, length), run, duration)
+    if kind == "piston" and float(left.get("velocity") or 0.0) > 0.0:
+        return _step("Piston of constant velocity", analytic.piston(curve, float(left["velocity"]), length), run)
+    if kind == "striker" and fixed:
+        mass, velocity = float(left["mass"]), float(left["velocity"])
+        return _column("Striker, two compaction fronts", analytic.CompactionStriker(curve, length, mass, velocity), run)
+    return None
+
+
+def _step(name: str, solution: analytic.StepLoading, run: Run, until: float = np.inf) -> Theory:
+    until = min(until, solution.end_time, float(run.time[-1]))
+    index = _last_before(run, until)
+    time = float(run.time[index])
+    front = solution.jumps()[-1]
+    behind = solution.states[-1]
+    rows = _behind_front(run, index, front.front_speed * time, behind)
+    if len(solution.states) > 2 or behind.strain > solution.curve.yield_strain:
+        rows += _fronts(run, [time], lambda t: front.front_speed * t, "front_position", "front")
+    return Theory(name, f"Eqs. 31–37, 40, 41 of {_DOI}", until, solution, solution.jumps, tuple(rows))
+
+
+def _column(name: str, solution: CompactionColumn, run: Run, pulse: float = 0.0) -> Theory:
+    until = min(solution.end_time, float(run.time[-1]))
+    rows: list[Row] = []
+    if 0.0 < pulse < until:
+        index = _last_before(run, pulse)
+        where = float(solution.history(run.time[index]).front)
+        state = solution(np.array([0.5 * where]), float(run.time[index]))
+        rows += _behind_front(run, index, where, analytic.State(*(float(value[0]) for value in state)))
+    moments = [share * until for share in (0.25, 0.5, 0.75, 0.95)]
+    rows += _fronts(run, moments, lambda t: float(solution.history(t).front), "front_position", "front")
+    late = [t for t in moments if t > solution.wave_arrival]
+    rows += _fronts(
+        run, late[-1:], lambda t: float(solution.history(t).distal_front), "distal_front_position", "far front"
+    )
+    rows += [_block_velocity(run, solution, t) for t in moments[1:3]]
+    if late:
+        felt = float(np.interp(late[-1], run.history["time"], run.history["right_stress"]))
+        rows.append(
+            Row(
+                f"support stress at {_clock(late[-1])}", float(solution.history(late[-1]).right_stress), felt, _pa(felt)
+            )
+        )
+    rows += _crushed(run, solution)
+    return Theory(name, f"Eqs. 39–47 of {_DOI}, on this law's curve", until, solution, solution.jumps, tuple(rows))
+
+
+def _behind_front(run: Run, index: int, front: float, state: analytic.State) -> list[Row]:
+    """Medians over the middle of the material behind the front at one output time."""
+    where = run["zone_coordinate"]
+    inside = (where > 0.15 * front) & (where < 0.8 * front)
+    if inside.sum() < 3:
+        return []
+    speed = 0.5 * (run["velocity"][index][:-1] + run["velocity"][index][1:])
+    measured = {"strain": run["strain"][index], "stress": run["stress"][index], "velocity": speed}
+    scales = {"strain": scale_for("1"), "stress": _pa(state.stress), "velocity": scale_for("m s-1", state.velocity)}
+    time = _clock(float(run.time[index]))
+    return [
+        Row(
+            f"{name} behind the front at {time}",
+            float(getattr(state, name)),
+            float(np.median(values[inside])),
+            scales[name],
+        )
+        for name, values in measured.items()
+    ]
+
+
+def _fronts(run: Run, times: list[float], exact: Callable[[float], float], name: str, words: str) -> list[Row]:
+    path, clock = front_path(run, name), run.history["time"]
+    known = np.isfinite(path)
+    rows = []
+    for time in times:
+        if known.any() and clock[known][0] <= time <= clock[known][-1]:
+            measured = float(np.interp(time, clock[known], path[known]))
+            rows.append(Row(f"{words} at {_clock(time)}", exact(time), measured, scale_for("m", measured)))
+    return rows
+
+
+def _block_velocity(run: Run, solution: CompactionColumn, time: float) -> Row:
+    """Mean velocity of the crushed block: a real foam unloads elastically and rings about the theory's rigid block."""
+    index = _last_before(run, time)
+    front = float(solution.history(run.time[index]).front)
+    inside = run["zone_coordinate"] < front
+    mass = run["zone_mass"][inside]
+    speed = 0.5 * (run["velocity"][index][:-1] + run["velocity"][index][1:])[inside]
+    mean = float(np.sum(mass * speed) / np.sum(mass)) if inside.any() else np.nan
+    exact = float(solution.history(run.time[index]).velocity)
+    label = f"mean velocity of the crushed block at {_clock(float(run.time[index]))}"
+    return Row(label, exact, mean, scale_for("m s-1", exact))
+
+
+def _crushed(run: Run, solution: CompactionColumn) -> list[Row]:
+    left = run.history["uncrushed_fraction"]
+    if np.isfinite(solution.meeting_time) and (left <= 0.0).any():
+        measured = float(run.history["time"][int(np.argmax(left <= 0.0))])
+        return [Row("fully crushed at", solution.meeting_time, measured, scale_for("s", measured))]
+    return []
+
+
+def _last_before(run: Run, time: float) -> int:
+    """The last profile at or before a time, not the initial one."""
+    return max(int(np.searchsorted(run.time, time * (1 + 1e-12), side="right")) - 1, 1)
+
+
+def _clock(time: float) -> str:
+    return scale_for("s", time).show(time, 3)
+
+
+def _pa(value: float) -> Scale:
+    return scale_for("Pa", value)
