@@ -1,0 +1,142 @@
+"""A striker on R-P-P-L: Eqs. 8, 9, 12, 13, at a finite stiffness K and in the limit K → ∞."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from hydro1d.analytic import RPPL, CompactionStriker, RPPLStriker
+from hydro1d.analytic.rppl import energy_ratio
+from hydro1d.boundaries.striker import Striker
+from hydro1d.boundaries.wall import Wall
+from hydro1d.deck import Layer
+from hydro1d.verify.case import Case, Effort
+from hydro1d.verify.cases.materials import rppl
+from hydro1d.verify.measure import Recording, extrapolate, order, simulate
+from hydro1d.verify.rows import Table, line
+
+FOAM = RPPL(155.0, 0.3e6, 0.67)  # Fig. 3 of the paper
+MASS, VELOCITY = 40.0, 100.0
+STIFFNESSES = (1000.0, 4000.0, 16000.0)  # in plateau stresses: the law's default, and what 1 % of the rigid limit takes
+SHARES = (0.1, 0.3, 0.5, 0.7)  # of the stopping displacement
+HALVINGS = 8
+ROWS = 20
+FINITE = "theory of the same finite stiffness (precursor, two fronts): what is left is the numerical front"
+RIGID = "the precursor's velocity √(σP/(K ρ0)) is left out by the rigid theory: 0.35 m/s, 0.35 % of v0, at this K"
+LIMIT = "the line through three stiffnesses in K^(−½), at zero"
+SEARCH = "bisection to 0.1 % of the length; the rigid limit by extrapolation in K^(−½)"
+
+
+class Passage(NamedTuple):
+    """v/v0 and σD at the SHARES of displacement."""
+
+    velocity: np.ndarray
+    stress: np.ndarray
+
+
+def _run(stiffness: float, length: float, zones: int, end: float) -> Recording:
+    material = rppl(stiffness, FOAM.density, FOAM.plateau_stress, FOAM.densification_strain)
+    layer = Layer(law=material.law, thickness=length, zones=zones)
+    return simulate(layer, Striker(mass=MASS, velocity=VELOCITY), Wall(), end=end, history=10)
+
+
+def _front_stress(run: Recording, t: float, window: float) -> float:
+    """σD: what slows down striker and crushed block, their mass times the deceleration, from a parabola through v(t)."""
+    near = np.abs(run["time"] - t) < window
+    times, velocity = run["time"][near] - t, run["left_striker_velocity"][near]
+    slope = float(np.polyfit(times / window, velocity, 2)[1]) / window
+    front = float(np.interp(t, run["time"], run["front_position"]))
+    return -slope * (MASS + FOAM.density * front)
+
+
+def _passage(stiffness: float, exact: RPPLStriker, zones: int) -> tuple[Passage, Recording]:
+    displacements = np.array(SHARES) * exact.critical_length * FOAM.densification_strain
+    times = np.linspace(0.0, exact.stop_time, 4001)
+    moments = np.interp(displacements, exact.history(times).displacement, times)
+    run = _run(stiffness, exact.length, zones, exact.stop_time)
+    velocity = np.interp(displacements, run["left_striker_position"], run["left_striker_velocity"])
+    stress = np.array([_front_stress(run, float(t), 0.12 * float(t)) for t in moments])
+    moved = np.interp(moments, run["time"], run["left_striker_position"])
+    return Passage(velocity / VELOCITY, stress / exact.stress_at(moved)), run
+
+
+def _finite(table: Table, exact: RPPLStriker, run: Recording) -> None:
+    """The default stiffness against the theory of that stiffness."""
+    curve = rppl(STIFFNESSES[0], FOAM.density, FOAM.plateau_stress, FOAM.densification_strain).curve
+    theory = CompactionStriker(curve, exact.length, MASS, VELOCITY)
+    t = np.linspace(0.05, 0.95, 40) * min(theory.end_time, exact.stop_time)
+    history = theory.history(t)
+    gap = np.abs(np.interp(t, run["time"], run["left_striker_velocity"]) - history.velocity).max() / VELOCITY
+    table.bound("K = 1000 σP: v(t) over v0, against finite-K theory", float(gap), 5e-3, FINITE)
+    front = np.abs(np.interp(t, run["time"], run["front_position"]) - history.front).max() / exact.critical_length
+    table.bound("K = 1000 σP: front over lCR, against finite-K theory", float(front), 5e-3, FINITE)
+    lines = [line(1e3 * t, history.velocity, "theory, K = 1000 σP", "exact"), line(1e3 * run["time"], run["left_striker_velocity"], "run")]
+    table.panel("striker at the default stiffness", "t, ms", "v, m/s", lines)
+
+
+def _critical_length(stiffness: float, guess: float, zones: int) -> tuple[float, float]:
+    """Longest column that is fully crushed, and its internal energy then over σP εD l."""
+    low, high, energy = 0.9 * guess, 1.15 * guess, float("nan")
+    for _ in range(HALVINGS):
+        length = 0.5 * (low + high)
+        run = _run(stiffness, length, zones, 1.05 * MASS * VELOCITY / FOAM.plateau_stress)
+        if run["uncrushed_fraction"][-1] <= 0.0:
+            low = length
+            # Striker and end node start as one: what that impact dissipates is absorbed by the end's half zone.
+            node = run.column.node_mass[0]
+            lost = 0.5 * MASS * VELOCITY**2 * node / (MASS + node)
+            work = FOAM.plateau_stress * FOAM.densification_strain * length
+            energy = (float(run["internal_energy"].max()) + lost) / work
+        else:
+            high = length
+    return 0.5 * (low + high), energy
+
+
+def _study(table: Table, effort: Effort) -> None:
+    free = RPPLStriker(FOAM, MASS, VELOCITY)
+    exact = RPPLStriker(FOAM, MASS, VELOCITY, 1.3 * free.critical_length)
+    zones = effort.zones(250)[-2] if effort.full else 250
+    passages, runs = zip(*[_passage(k, exact, zones) for k in STIFFNESSES], strict=True)
+    _finite(table, exact, runs[0])
+    displacements = np.array(SHARES) * free.critical_length * FOAM.densification_strain
+    theory = exact.velocity_at(displacements) / VELOCITY
+    velocities = np.array([p.velocity for p in passages])
+    stresses = np.array([p.stress for p in passages])
+    for k, share in enumerate(SHARES):
+        table.compare(f"v/v0 at {share:g} of the way (Eq. 8), K = 16000 σP", theory[k], velocities[-1, k], 1e-2, RIGID, scale=1.0)
+        limit = extrapolate(STIFFNESSES, velocities[:, k], 0.5)
+        table.compare(f"v/v0 at {share:g} of the way (Eq. 8), limit", theory[k], limit, 3e-3, LIMIT, scale=1.0)
+    for k, share in enumerate(SHARES[1:], start=1):
+        limit = extrapolate(STIFFNESSES, stresses[:, k], 0.5)
+        table.compare(f"σD over Eq. 9 at {share:g} of the way, limit", 1.0, limit, 1e-2, LIMIT)
+    errors = np.abs(velocities - theory).max(axis=1)
+    found = order(np.sqrt(STIFFNESSES), errors)
+    table.bound("v/v0, approach to the limit, order in √K", errors[-1], 1e-2, LIMIT, order=found, least_order=0.8)
+    found_lengths = [_critical_length(k, free.critical_length, zones // 2) for k in STIFFNESSES]
+    lengths, ratios = (np.array(values) for values in zip(*found_lengths, strict=True))
+    table.compare("lCR by search (Eq. 13), K = 16000 σP, m", free.critical_length, lengths[-1], 1e-2, SEARCH)
+    table.compare("lCR by search (Eq. 13), limit, m", free.critical_length, extrapolate(STIFFNESSES, lengths, 0.5), 1e-2, SEARCH)
+    psi = float(energy_ratio(FOAM, MASS, free.critical_length))
+    table.compare("ψ (Eq. 12), K = 16000 σP", psi, ratios[-1], 1e-2, SEARCH)
+    table.compare("ψ (Eq. 12), limit", psi, extrapolate(STIFFNESSES, ratios, 0.5), 1e-2, SEARCH)
+    table.report("lCR by search at the default stiffness, m", free.critical_length, lengths[0], "the precursor crushes the far end too")
+    table.report("ψ at the default stiffness", psi, ratios[0], "reported")
+    _figures(table, exact, runs[-1], errors, np.abs(lengths / free.critical_length - 1.0))
+
+
+def _figures(table: Table, exact: RPPLStriker, run: Recording, errors: np.ndarray, lengths: np.ndarray) -> None:
+    u = np.linspace(0.0, 0.999 * exact.critical_length * FOAM.densification_strain, 300)
+    lines = [line(u, exact.velocity_at(u), "Eq. 8", "exact"), line(run["left_striker_position"], run["left_striker_velocity"], "K = 16000 σP")]
+    table.panel("velocity of the striker", "u, m", "v, m/s", lines)
+    table.panel("convergence", "K/σP", "error", [line(STIFFNESSES, errors, "v/v0"), line(STIFFNESSES, lengths, "lCR")], log=True)
+
+
+def cases() -> list[Case]:
+    """One case."""
+    about = (
+        "40 kg/m² at 100 m/s on R-P-P-L (Fig. 3's foam). A rigid material is regularised by lines of slope K; the case shows the run at "
+        "the default K against the theory of that K, the run at 16000 σP against the rigid formulas, and the limit in K^(−½). lCR is "
+        "found by bisection on the length of the column; ψ is the internal energy of the column that is just fully crushed."
+    )
+    return [Case("rppl-striker", "Striker on R-P-P-L", about, ROWS, _study)]
