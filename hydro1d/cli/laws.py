@@ -8,18 +8,40 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from hydro1d.parameters import Component
 
-HELP = "list the laws, boundaries and pulses, or show the keys of one"
+HELP = "list the laws, boundaries and pulses, show the keys of one, plot a law, fit a law"
+ACTIONS = {"plot": "_laws_plot", "fit": "_laws_fit"}
 KINDS = {"law": "law = ", "boundary": "type = ", "pulse": "pulse = "}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d laws``."""
-    parser.add_argument("name", metavar="NAME", nargs="?", help='a law, boundary or pulse, or "file.py:Class"')
+    parser.add_argument(
+        "name", metavar="NAME", nargs="?",
+        help='a law, boundary or pulse, or "file.py:Class"; or plot DECK, fit CURVE.csv (laws plot --help says more)',
+    )  # fmt: skip
+    parser.add_argument("rest", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
 
 
 def run(args: argparse.Namespace) -> None:
-    """Print the list, or one entry."""
+    """Print the list, or one entry; or plot or fit a law."""
+    if args.name in ACTIONS:
+        _act(args.name, args.rest)
+        return
+    if args.rest:
+        from hydro1d.errors import DeckError
+
+        raise DeckError(f"laws shows one thing at a time, not {args.rest[0][:80]!r} as well")
     print("\n".join(_overview() if args.name is None else _entry(args.name)))
+
+
+def _act(name: str, arguments: list[str]) -> None:
+    """``laws plot`` and ``laws fit`` have options of their own."""
+    import importlib
+
+    module = importlib.import_module(f"hydro1d.cli.{ACTIONS[name]}")
+    parser = argparse.ArgumentParser(f"hydro1d laws {name}", description=module.HELP, allow_abbrev=False)
+    module.add_arguments(parser)
+    module.run(parser.parse_args(arguments))
 
 
 def _overview() -> list[str]:

@@ -12,8 +12,9 @@ from hydro1d.plot._base import Picture, save
 from hydro1d.plot._compare import compare
 from hydro1d.plot._histories import history
 from hydro1d.plot._hugoniot import hugoniot
+from hydro1d.plot._laws import law
 from hydro1d.plot._overview import overview
 from hydro1d.plot._profiles import profiles
 from hydro1d.plot._xt import xt
 
-__all__ = ["Picture", "animate", "compare", "history", "hugoniot", "overview", "profiles", "save", "xt"]
+__all__ = ["Picture", "animate", "compare", "history", "hugoniot", "law", "overview", "profiles", "save", "xt"]

@@ -1,0 +1,55 @@
+"""``hydro1d laws fit``: parameters of a law from a measured quasi-static curve."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+HELP = "fit a law to a measured quasi-static curve (CSV: strain, stress)"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of ``hydro1d laws fit``."""
+    parser.add_argument("curve", metavar="CURVE.csv", type=Path, help="two columns, header and units optional")
+    parser.add_argument("--law", default="epph-tangent", help="the law to fit, default epph-tangent")
+    parser.add_argument("--density", metavar="DENSITY", help='of the foam, "51.6 kg/m^3"; epph needs it')
+    parser.add_argument("--max-strain", metavar="STRAIN", type=float, default=1.0, help="leave out what lies beyond")
+    parser.add_argument("--material", metavar="NAME", default="foam", help="name in the deck fragment, default foam")
+    parser.add_argument("-o", "--output", metavar="FILE", type=Path, help="figure; default: CURVE-LAW.png, here")
+
+
+def run(args: argparse.Namespace) -> None:
+    """Fit; print parameters, quality and a deck fragment; draw."""
+    from hydro1d import fit, plot
+
+    found = fit.fit_curve(args.curve, args.law, _density(args.density), args.max_strain)
+    efficiency = found.efficiency
+    lines = [found.table(), ""]
+    lines.append(f"rms of the residuals: {found.rms / 1e6:.4g} MPa ({100 * found.relative_rms:.3g} % as weighted)")
+    lines.append(
+        f"by energy efficiency: plateau {efficiency.plateau_stress / 1e6:.4g} MPa, "
+        f"densification strain {efficiency.densification_strain:.4g}"
+    )
+    if not efficiency.complete:
+        lines.append("  the efficiency still rises at the last point: the curve ends before the foam densifies")
+    figure, _ = fit.draw(found)
+    target = plot.save(figure, args.output or Path(f"{args.curve.stem}-{args.law}.png"))
+    print("\n".join([*lines, f"figure: {target}", "", found.deck_fragment(args.material)]))
+
+
+def _density(text: str | None) -> float | None:
+    from hydro1d.errors import DeckError
+    from hydro1d.units import convert
+
+    if text is None:
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        try:
+            value = convert(text, "kg/m^3")
+        except ValueError as error:
+            raise DeckError(f"--density: {error}") from error
+    if not 0.0 < value < float("inf"):
+        raise DeckError("--density must be above zero")
+    return value

@@ -1,0 +1,103 @@
+"""The laws that can be fitted: parameters, where to start, how far they may go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from hydro1d import analytic
+from hydro1d.fit._curve import MeasuredCurve
+from hydro1d.fit._efficiency import Efficiency
+
+
+class Parameter(NamedTuple):
+    """Name and unit in a deck, starting value, bounds."""
+
+    name: str
+    unit: str
+    start: float
+    low: float
+    high: float
+
+
+class Model(NamedTuple):
+    """Parameters, and the curve that they and the density make."""
+
+    parameters: Callable[[MeasuredCurve, Efficiency, float], list[Parameter]]
+    curve: Callable[..., Any]
+    needs_density: bool = False
+
+
+def first_slope(curve: MeasuredCurve, plateau: float) -> float:
+    """Elastic modulus to start from, Pa: the slope between a tenth and six tenths of the plateau stress."""
+    rising = np.flatnonzero(curve.stress >= 0.9 * plateau)
+    end = int(rising[0]) if len(rising) else len(curve.strain) - 1
+    strain, stress = curve.strain[: end + 1], curve.stress[: end + 1]
+    inside = (stress > 0.1 * plateau) & (stress < 0.6 * plateau)
+    if inside.sum() >= 3:
+        slope = float(np.polyfit(strain[inside], stress[inside], 1)[0])
+        if slope > 0.0:
+            return slope
+    return plateau / max(float(curve.strain[end]), 1e-3)
+
+
+def _elastic(curve: MeasuredCurve, plateau: float) -> Parameter:
+    slope = first_slope(curve, plateau)
+    least = 1.05 * plateau / max(float(curve.strain[-1]), 0.05)
+    return Parameter("modulus", "Pa", max(slope, 1.5 * least), least, 100.0 * max(slope, 1.5 * least))
+
+
+def _plateau(name: str, plateau: float) -> Parameter:
+    return Parameter(name, "Pa", plateau, 0.1 * plateau, 5.0 * plateau)
+
+
+def _densification(found: Efficiency, last: float) -> Parameter:
+    start = min(max(found.densification_strain, 0.1), 0.97 * last)
+    return Parameter("densification_strain", "1", start, 0.4 * start, min(0.98, max(last, start + 0.01)))
+
+
+def _tangent(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+    return [
+        *_common(curve, found),
+        Parameter("beta", "1", 0.5, 1e-4, 1e3),
+        Parameter("gamma", "1", 0.7, 0.02, 0.9999),
+    ]
+
+
+def _common(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
+    plateau = found.plateau_stress
+    last = float(curve.strain[-1])
+    return [_elastic(curve, plateau), _plateau("plateau_stress", plateau), _densification(found, last)]
+
+
+def _epph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+    return [*_common(curve, found), Parameter("shock_slope", "s/m", 1e-3, 1e-6, 1.0)]
+
+
+def _trilinear(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+    slope = 10.0 * found.plateau_stress
+    return [*_common(curve, found), Parameter("locking_modulus", "Pa", slope, 1e-2 * slope, 1e4 * slope)]
+
+
+def _rph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+    plateau = found.plateau_stress
+    hardening = Parameter("hardening", "Pa", 0.1 * plateau, 1e-6 * plateau, 100.0 * plateau)
+    return [_elastic(curve, plateau), _plateau("plateau_stress", 0.8 * plateau), hardening]
+
+
+def _eph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+    plateau = found.plateau_stress
+    modulus = _elastic(curve, plateau)
+    hardening = Parameter("hardening_modulus", "Pa", 0.01 * modulus.start, 1e-8 * modulus.start, 0.9 * modulus.low)
+    return [modulus, _plateau("yield_stress", 0.8 * plateau), hardening]
+
+
+MODELS: dict[str, Model] = {
+    "epph-tangent": Model(_tangent, analytic.TangentEPPH),
+    "epph": Model(_epph, analytic.EPPH, needs_density=True),
+    "trilinear": Model(_trilinear, analytic.Trilinear),
+    "rph": Model(_rph, analytic.RPH),
+    "eph": Model(_eph, analytic.EPH),
+}
