@@ -12,7 +12,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d verify``."""
     parser.add_argument("--full", action="store_true", help="finer resolutions too; takes several times as long")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the rows of the table as JSON")
-    parser.add_argument("--html", metavar="FILE", type=Path, help="write one self-contained page: table, profiles, convergence")
+    parser.add_argument(
+        "--html", metavar="FILE", type=Path, help="write one self-contained page: table, profiles, convergence"
+    )
     parser.add_argument("--markdown", metavar="FILE", type=Path, help="write the page of the documentation")
     parser.add_argument(
         "--only", metavar="PATTERN", action="append", default=[], help="run the cases of this name (* stands for anything); can be repeated"
@@ -70,7 +72,9 @@ def _write(args: argparse.Namespace, reports: list, rows: list, seconds: float) 
     import json
 
     if args.json is not None:
-        args.json.write_text(json.dumps([row.plain() for row in rows], indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        args.json.write_text(
+            json.dumps([row.plain() for row in rows], indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+        )
     if args.html is not None:
         from hydro1d.verify.page import html_page
 

@@ -17,9 +17,22 @@ from hydro1d.verify.rows import Panel, Row, Table, failure
 # In the order of the report. A module that is missing here would be missed silently, hence the total below.
 MODULES = (
     "step_loading",
+    "hugoniot",
+    "rppl_striker",
+    "rppl_pulse",
+    "epph_pulse",
+    "front_energy",
+    "rph_striker",
+    "clad_plate",
+    "taylor_plate",
+    "elastic_bar",
+    "riemann",
+    "noh",
+    "smooth",
+    "symmetry",
 )
-CASES = 18
-ROWS = 864
+CASES = 39
+ROWS = 1119
 
 
 @dataclass(frozen=True)

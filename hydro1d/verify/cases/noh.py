@@ -12,7 +12,7 @@ from hydro1d.laws.ideal_gas import IdealGas
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.riemann import GAS_VISCOSITY
 from hydro1d.verify.measure import Recording, order, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Line, Table, line
 
 END, PRESSURE = 0.6, 1e-9
 FROM, TO = 0.05, 0.35  # where the norm is taken: wall heating and far field left out
@@ -73,7 +73,7 @@ def _study(table: Table, effort: Effort) -> None:
     table.convergence(zones, {"mean |Δρ|": errors}, "mean |Δρ|, kg/m³")
 
 
-def _near(item):  # noqa: ANN001, ANN202
+def _near(item: Line) -> Line:
     inside = item.x < 0.4
     return line(item.x[inside], item.y[inside], item.label, item.style)
 
