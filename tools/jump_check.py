@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Hold the compaction front of any hydro1d result against the jump conditions.
+
+Eqs. 22 and 31-37 of doi:10.1016/j.ijimpeng.2009.03.011. States on either side are read off the profiles, the front's
+speed from its positions at neighbouring profiles. Shown are relative differences of the two sides of: mass [v] = c [strain] (31, 35), momentum [stress] = rho0 c [v] (32, 36),
+[stress] [strain] = rho0 [v]^2 (37), energy rho0 [e] = (stressA + stressB) [strain]/2 (22). c is Lagrangian.
+A front that is still forming, decaying or meeting another one does not satisfy them at once.
+"""
+
+import argparse
+import sys
+
+import h5py
+import numpy as np
+from _fronts import front_coordinate, strongest_front
+
+NAMES = ("mass", "momentum", "Rayleigh", "energy")
+
+
+def residuals(path):
+    """Rows (time s, speed m/s, mass, momentum, Rayleigh, energy)."""
+    found = []
+    with h5py.File(path, "r") as file:
+        nodes, time, layer = file["node_coordinate"][:], file["time"][:], file["zone_layer"][:]
+        density = file["zone_mass"][:] / np.diff(nodes)
+        for index in range(len(time)):
+            strain = file["strain"][index]
+            front = strongest_front(strain, file["viscosity"][index])
+            if front is None or layer[front.behind] != layer[front.ahead]:
+                continue
+            speed = file["velocity"][index]
+            velocity = 0.5 * (speed[:-1] + speed[1:])
+            fields = (velocity, strain, file["stress"][index], file["internal_energy"][index])
+            behind, ahead = (np.array([field[zone] for field in fields]) for zone in (front.behind, front.ahead))
+            found.append((time[index], front_coordinate(front, nodes, strain), density[front.ahead], behind, ahead))
+    if len(found) < 2:
+        raise ValueError(f"{path}: fewer than two profiles show a compaction front within one layer")
+    times, places = np.array([row[0] for row in found]), np.array([row[1] for row in found])
+    speeds = np.gradient(places, times)
+    return np.array([_row(*row, speed) for row, speed in zip(found, speeds, strict=True)])
+
+
+def _row(time, _, density, behind, ahead, speed):
+    velocity, strain, stress, energy = behind - ahead
+    mean = 0.5 * (behind[2] + ahead[2])
+    pairs = (
+        (velocity, speed * strain),
+        (stress, density * speed * velocity),
+        (stress * strain, density * velocity**2),
+        (density * energy, mean * strain),
+    )
+    return (time, speed, *(_relative(left, right) for left, right in pairs))
+
+
+def _relative(left, right):
+    return abs(left - right) / max(abs(left), abs(right), 1e-300)
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("run", help="a result, RUN.h5")
+    parser.add_argument("--tolerance", type=float, help="exit code 1 if a median exceeds it")
+    args = parser.parse_args(argv)
+    table = residuals(args.run)
+    print(f"{'time (ms)':>10}{'c (m/s)':>10}" + "".join(f"{name:>11}" for name in NAMES))
+    for time, speed, *rest in table:
+        print(f"{1e3 * time:>10.4f}{speed:>10.2f}" + "".join(f"{value:>11.1e}" for value in rest))
+    medians = np.median(table[:, 2:], axis=0)
+    print(f"{'median':>20}" + "".join(f"{value:>11.1e}" for value in medians))
+    return 1 if args.tolerance is not None and medians.max() > args.tolerance else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except BrokenPipeError:  # the reader has had enough
+        sys.stderr.close()
+    except (OSError, KeyError, ValueError) as error:
+        sys.exit(f"jump_check: {error}")
