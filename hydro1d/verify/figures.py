@@ -1,0 +1,83 @@
+"""Figures of the report as inline SVG, drawn by matplotlib without a display."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import Any
+
+import numpy as np
+
+from hydro1d.verify.rows import Line, Panel
+
+EXACT, RUNS = "#222222", ("#1769aa", "#d1495b", "#3a7d44", "#8d6a9f", "#c98b1d", "#4f9da6")
+MOST_POINTS = 700  # of a line: what a column of text can show
+
+
+def svg(panels: tuple[Panel, ...], prefix: str) -> str:
+    """All panels of a case side by side; ``prefix`` keeps the ids of several figures on one page apart."""
+    import matplotlib
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.figure import Figure
+
+    style = {"svg.fonttype": "none", "svg.hashsalt": prefix, "font.family": "sans-serif", "font.size": 9.0, "axes.titlesize": 9.5}
+    with matplotlib.rc_context(style):
+        figure = Figure(figsize=(4.6 * len(panels), 3.3), layout="constrained")
+        FigureCanvasSVG(figure)
+        for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
+            _draw(axes, panel)
+        out = io.StringIO()
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    return _inline(out.getvalue(), prefix)
+
+
+def _draw(axes: Any, panel: Panel) -> None:
+    colours = iter(RUNS * 3)
+    for item in panel.lines:
+        x, y = _thinned(item)
+        colour = EXACT if item.style == "exact" else next(colours)
+        if panel.log:
+            axes.loglog(x, np.maximum(np.abs(y), 1e-18), "o-", color=colour, markersize=3.5, linewidth=1.0, label=item.label or None)
+        elif item.style == "exact":
+            axes.plot(x, y, "-", color=colour, linewidth=2.2, alpha=0.45, label=item.label or None)
+        elif item.style == "points":
+            axes.plot(x, y, "o", color=colour, markersize=3.0, markerfacecolor="none", label=item.label or None)
+        else:
+            axes.plot(x, y, "-", color=colour, linewidth=1.0, label=item.label or None)
+    axes.set_title(panel.title)
+    axes.set_xlabel(panel.x_label)
+    axes.set_ylabel(panel.y_label)
+    axes.grid(True, which="major", linewidth=0.4, alpha=0.4)
+    if any(item.label for item in panel.lines):
+        axes.legend(frameon=False, fontsize=8.0)
+    if panel.log:
+        _slope(axes, panel)
+
+
+def _slope(axes: Any, panel: Panel) -> None:
+    """A line of first order for the eye, below the data."""
+    from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+    x = np.unique(np.concatenate([item.x for item in panel.lines]))
+    axes.xaxis.set_major_locator(FixedLocator(list(x)))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    lowest = min(float(np.min(np.maximum(np.abs(item.y), 1e-18))) for item in panel.lines)
+    power = 1.0 if panel.x_label == "zones" else 0.5
+    axes.loglog(x, 0.6 * lowest * (x[-1] / x) ** power, ":", color="#888888", linewidth=1.0)
+    name = "order 1" if power == 1.0 else "order ½"
+    axes.annotate(name, (x[0], 0.6 * lowest * (x[-1] / x[0]) ** power), color="#666666", fontsize=7.5, va="bottom")
+
+
+def _thinned(item: Line) -> tuple[np.ndarray, np.ndarray]:
+    """At most MOST_POINTS points, and no NaN at the ends of the thinning."""
+    step = max(1, len(item.x) // (MOST_POINTS if item.style != "points" else 150))
+    return item.x[::step], item.y[::step]
+
+
+def _inline(text: str, prefix: str) -> str:
+    """The <svg> element alone, its ids made unique, as wide as its column allows."""
+    body = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
+    body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', body)
+    body = re.sub(r'(xlink:href="#|url\(#)', rf"\g<1>{prefix}-", body)
+    return re.sub(r'(<svg\b[^>]*?) width="[^"]+"', r'\1 width="100%"', re.sub(r' height="[\d.]+pt"', "", body, count=1), count=1)
