@@ -201,6 +201,7 @@ class _Run:
                 return self.broken(status)
             if event in self.profile_times:
                 self.sink.profile(frame(self.column, self.program, self.state))
+            self.save_if_due()
         return self.outcome("complete")
 
     def to_event(self, event: float) -> int:
@@ -214,7 +215,8 @@ class _Run:
                 self.sink.history(*self.program.recorded(self.state))
             if self.progress is not None:
                 self.progress(self.state)
-            self.save_if_due()
+            if status == march.PAUSED:  # at an event its profile comes first
+                self.save_if_due()
         return status
 
     def stretch(self, event: float) -> int:

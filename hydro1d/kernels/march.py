@@ -200,7 +200,7 @@ def close_step(ledger: Any, force: Any, zones: int, step: float, stable: float, 
         return INVERTED
     if not 0.0 < stable < math.inf:
         return NOT_FINITE
-    if ledger[NEXT_STEP] < 1e-9 * ledger[FIRST_STEP] or ledger[TIME] + ledger[NEXT_STEP] == ledger[TIME]:
+    if ledger[NEXT_STEP] < 1e-6 * ledger[FIRST_STEP] or ledger[TIME] + ledger[NEXT_STEP] == ledger[TIME]:
         return COLLAPSED
     return REACHED if ledger[TIME] >= ledger[STOP] else PAUSED
 

@@ -8,12 +8,11 @@ compiles it, a debugger can step through it. Inside it, ``self`` offers the nume
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
-from pydantic import field_validator, model_validator
+from pydantic import Field, model_validator
 
 from hydro1d.parameters import Component, derived, fraction, positive
-from hydro1d.units import convert
 
 RIGID = 100.0  # times the elastic modulus: the stiffest unloading that still leaves an affordable time step
 
@@ -77,13 +76,10 @@ class Foam(Law):
         modulus: float  # E, Pa; a subclass declares it as a parameter or derives it
 
     unloading: Literal["elastic", "reversible"] = "elastic"
-    unloading_modulus: float | Literal["rigid"] | None = None
+    unloading_modulus: float | Literal["rigid"] | None = Field(
+        None, description='slope of the unloading line; "rigid" is 100 times the modulus', json_schema_extra={"unit": "Pa"}
+    )
     tension: bool = False
-
-    @field_validator("unloading_modulus", mode="before")
-    @classmethod
-    def _unloading_in_pascal(cls, value: Any) -> Any:
-        return value if value is None or value == "rigid" else convert(value, "Pa")
 
     @model_validator(mode="after")
     def _unloads_no_softer_than_it_loads(self) -> Foam:

@@ -22,7 +22,7 @@ class Table(Foam):
     @model_validator(mode="after")
     def _check_curve(self) -> Table:
         points = np.array(self.curve, dtype=float)
-        if len(points) < 2 or (len(points) == 2 and points[0, 0] == 0.0):
+        if len(points) < 2 or (len(points) == 2 and points[0, 0] == points[0, 1] == 0.0):
             raise ValueError("curve needs two points at least besides the origin")
         if not np.isfinite(points).all():
             raise ValueError("curve holds NaN or infinity")
@@ -51,9 +51,9 @@ class Table(Foam):
     def corners(self) -> np.ndarray:
         """Corner points (strain, stress) of elastic line and curve together, shape (points, 2)."""
         points = np.array(self.curve, dtype=float)
-        if points[0, 0] == 0.0:
+        if points[0, 0] == points[0, 1] == 0.0:
             points = points[1:]  # the origin lies on the elastic line already
-        below = np.flatnonzero(self.modulus * points[:, 0] >= points[:, 1])[0]
+        below = np.flatnonzero(self.modulus * points[:, 0] >= points[:, 1])[0]  # the first on the line or right of it
         segment = max(below - 1, 0)
         (strain, stress), (end, end_stress) = points[segment], points[min(segment + 1, len(points) - 1)]
         slope = (end_stress - stress) / (end - strain) if end > strain else 0.0
