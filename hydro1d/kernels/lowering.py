@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import FunctionType
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+from numba.core.codegen import CPUCodeLibrary
 from numba.extending import (
     intrinsic,
     make_attribute_wrapper,
@@ -26,6 +28,7 @@ from hydro1d.parameters import Component, derived
 
 POINTER = types.CPointer(types.float64)
 _INTEGER, _DOUBLE = ir.IntType(64), ir.DoubleType()
+_ANY_ORDER = ("nnan", "nsz")
 
 
 @intrinsic
@@ -57,19 +60,12 @@ def _scatter(_typing: Any, pointer: Any, start: Any, stride: Any, values: Any) -
 
 
 @intrinsic
-def _order(_typing: Any, value: Any) -> Any:
+def _larger(_typing: Any, value: Any, other: Any) -> Any:
     def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        bits = builder.bitcast(args[0], _INTEGER)
-        # A NaN of either sign must come out on top.
-        positive = builder.and_(bits, ir.Constant(_INTEGER, 0x7FFFFFFFFFFFFFFF))
-        return builder.select(builder.fcmp_unordered("uno", args[0], args[0]), positive, bits)
+        exceeds = builder.fcmp_ordered(">", args[1], args[0], flags=_ANY_ORDER)
+        return builder.select(exceeds, args[1], args[0], flags=_ANY_ORDER)
 
-    return types.int64(types.float64), generate
-
-
-@intrinsic
-def _unorder(_typing: Any, bits: Any) -> Any:
-    return types.float64(types.int64), lambda _context, builder, _signature, args: builder.bitcast(args[0], _DOUBLE)
+    return types.float64(types.float64, types.float64), generate
 
 
 @intrinsic
@@ -95,8 +91,7 @@ def _call(_typing: Any, addresses: Any, which: Any, arguments: Any) -> Any:
 
 def _register_primitives() -> None:
     overload(primitives.offset)(lambda pointer, start: lambda pointer, start: _offset(pointer, start))
-    overload(primitives.order)(lambda value: lambda value: _order(value))
-    overload(primitives.unorder)(lambda bits: lambda bits: _unorder(bits))
+    overload(primitives.larger)(lambda value, other: lambda value, other: _larger(value, other))
     overload(primitives.accumulate)(lambda total, value: lambda total, value: _accumulate(total, value))
     overload(primitives.gather)(
         lambda pointer, start, stride, count: lambda pointer, start, stride, count: _gather(
@@ -114,6 +109,19 @@ def _register_primitives() -> None:
 
 
 _register_primitives()
+
+
+@contextmanager
+def not_optimised() -> Iterator[None]:
+    """Keep numba from optimising: it would vectorise loops with checks for overlap that `build` makes needless."""
+    patched = {name: getattr(CPUCodeLibrary, name) for name in ("_optimize_functions", "_optimize_final_module")}
+    for name in patched:
+        setattr(CPUCodeLibrary, name, lambda *_arguments: None)
+    try:
+        yield
+    finally:
+        for name, method in patched.items():
+            setattr(CPUCodeLibrary, name, method)
 
 
 def record_type(component: Component, members: dict[str, Any]) -> types.Type:

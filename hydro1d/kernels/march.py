@@ -15,7 +15,7 @@ from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.primitives import accumulate, call, offset
 
 # p: pointer to double, q: to integers, i: integer
-SIGNATURE = "pqq" + 15 * "p" + "qpp" + "iii"
+SIGNATURE = "pqq" + 18 * "p" + "qpp" + "iii"
 
 # Places in the ledger: the scalars of the state, then what this call is to do, then what it answers.
 TIME, LAST_STEP, FREE_STEP, NEXT_STEP, CYCLE = range(5)
@@ -31,8 +31,8 @@ REACHED, PAUSED, NOT_FINITE, INVERTED, COLLAPSED = range(5)
 # Places in the layer table (integers) and in the layers' numbers behind the zone kernel's own.
 FIRST_ZONE, ZONES, PARAMETERS = range(3)
 LAYER = 3
-CRUSHED_STRAIN, TOP_STRAIN, SIZE, ZONE_MASS = range(zone_places.NUMBERS, zone_places.NUMBERS + 4)
-NUMBERS = zone_places.NUMBERS + 4
+CRUSHED_STRAIN, TOP_STRAIN, SIZE, ZONE_MASS = range(zone_places.NUMBERS + 1, zone_places.NUMBERS + 5)
+NUMBERS = zone_places.NUMBERS + 5
 END = 10
 BLOCK = 512  # zones whose arrays stay in the first-level cache between the node pass and the zone pass
 SCRATCH = zone_places.RESULTS  # where `out` goes on after the answers of a kernel
@@ -56,6 +56,9 @@ def march(
     energy: Any,
     force: Any,
     state: Any,
+    curve: Any,
+    stiffnesses: Any,
+    speeds: Any,
     mass: Any,
     inverse_mass: Any,
     coordinate: Any,
@@ -84,8 +87,9 @@ def march(
         for layer in range(layer_count):
             numbers[layer * NUMBERS + zone_places.STEP] = step
             numbers[layer * NUMBERS + zone_places.KICK] = kick
+            numbers[layer * NUMBERS + zone_places.AFRESH] = 1.0 if taken == 0 else 0.0  # the kernels remember their curves
         stable, speed, layer = sweep(ledger, layers, addresses, parameters, numbers, out, before, after, displacement,
-                                     energy, force, state, inverse_mass, layer_count, zones, kick, step)
+                                     energy, force, state, curve, stiffnesses, speeds, inverse_mass, layer_count, zones, kick, step)
         before, after = after, before
         swapped = not swapped
         taken += 1
@@ -103,6 +107,8 @@ def march(
                energy, force, state, mass, inverse_mass, coordinate, offset(rows, recorded * columns), probes,
                probe_weights, offset(probe_rows, recorded * probes[0] * 4), layer_count, zones)
         recorded += 1
+    for layer in range(layer_count):  # what comes next may be another state: nothing remembered holds for it
+        numbers[layer * NUMBERS + zone_places.AFRESH] = 1.0
     ledger[ROWS] = recorded
     ledger[STATUS] = status
 
@@ -143,7 +149,7 @@ def kick_ends(
 
 def sweep(
     ledger: Any, layers: Any, addresses: Any, parameters: Any, numbers: Any, out: Any, before: Any, after: Any,
-    displacement: Any, energy: Any, force: Any, state: Any, inverse_mass: Any, layer_count: int, zones: int, kick: float,
+    displacement: Any, energy: Any, force: Any, state: Any, curve: Any, stiffnesses: Any, speeds: Any, inverse_mass: Any, layer_count: int, zones: int, kick: float,
     step: float,
 ) -> tuple[float, float, int]:
     """Node phase and zone phase, block by block from left to right.
@@ -170,7 +176,7 @@ def sweep(
             after[zones + 2] = 2.0 * after[zones + 1] - after[zones]
             call(addresses, layer, offset(parameters, layers[layer * LAYER + PARAMETERS]), constants, offset(after, start),
                  offset(before, start), offset(displacement, start), offset(energy, start), offset(force, start),
-                 offset(state, start), end - start, zones, out)
+                 offset(state, start), offset(curve, start), offset(stiffnesses, start), offset(speeds, start), end - start, zones, out)
             # `not <=` and not `>`: a NaN must win.
             if not out[zone_places.STIFFNESS] <= stiffness:
                 stiffness = out[zone_places.STIFFNESS]
@@ -255,7 +261,7 @@ def record(
         constants, share, probe = offset(numbers, layer * NUMBERS), probe_weights[k], offset(probe_row, 4 * k)
         observed = offset(out, SCRATCH)
         call(addresses, layer, offset(parameters, layers[layer * LAYER + PARAMETERS]), constants, offset(velocity, zone),
-             offset(velocity, zone), offset(displacement, zone), offset(energy, zone), observed, offset(state, zone), -1,
+             offset(velocity, zone), offset(displacement, zone), offset(energy, zone), observed, offset(state, zone), out, out, out, -1,
              zones, out)
         probe[3] = observed[0]
         probe[2] = (displacement[zone] - displacement[zone + 1]) * constants[zone_places.INVERSE_SIZE]

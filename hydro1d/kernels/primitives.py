@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-import math
-import struct
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -27,17 +25,9 @@ def scatter(pointer: Any, start: int, stride: int, values: tuple[float, ...]) ->
         pointer[start + k * stride] = value
 
 
-def order(value: float) -> int:
-    """An integer that sorts as the float does (NaN on top): unlike a float maximum, its reduction vectorises.
-
-    Negative floats sort below all others, among themselves in reverse, which a running maximum from 0 never sees.
-    """
-    return struct.unpack("<q", struct.pack("<d", abs(value) if math.isnan(value) else value))[0]
-
-
-def unorder(bits: int) -> float:
-    """The float of an `order`."""
-    return struct.unpack("<d", struct.pack("<q", bits))[0]
+def larger(value: float, other: float) -> float:
+    """The larger of two numbers, in any order when many are compared; who must see a NaN looks elsewhere."""
+    return max(value, other)
 
 
 def accumulate(total: float, value: float) -> float:

@@ -11,6 +11,7 @@ from hydro1d.column import Column
 from hydro1d.kernels import build, march, records
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
+from hydro1d.laws.base import Foam
 from hydro1d.parameters import Component
 from hydro1d.state import State
 
@@ -36,6 +37,7 @@ class Program:
         self.parameters = np.concatenate(parameters)
         self.out = np.zeros(march.OUT)
         self.spare = np.zeros(zones + 3)
+        self.curve, self.stiffnesses, self.speeds = np.zeros(zones), np.zeros(zones), np.zeros(zones)
         self.inverse_mass = 1.0 / column.node_mass
         self.end_numbers = np.zeros((2, march.END))
         self.columns = len(column.history_variables) - _remembered(column) + 2 * end_places.MEMORY
@@ -64,8 +66,8 @@ class Program:
         ledger[march.ROW_AT_STOP], ledger[march.ROWS] = row_at_stop, self.row_capacity
         arrays = (
             ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
-            state.velocity, self.spare, state.displacement, state.energy, state.force, state.material,
-            self.column.node_mass, self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table,
+            state.velocity, self.spare, state.displacement, state.energy, state.force, state.material, self.curve,
+            self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table,
             self.probe_weights, self.probe_rows,
         )  # fmt: skip
         self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
@@ -86,12 +88,13 @@ class Program:
 
     def sweep_layer(self, state: State, layer: int, zones: int, force: np.ndarray) -> np.ndarray:
         """Call a layer's zone kernel on the state as it stands; negative ``zones`` observes the stress into ``force``."""
-        slab = self.column.slabs[layer]
-        first = slab.first
+        first = self.column.slabs[layer].first
+        state.numbers[layer, zone_places.AFRESH] = 1.0
         arrays = (
             self.parameters[self.layers[layer, march.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
             state.velocity[first:], state.displacement[first:], state.energy[first:], force[first:],
-            state.material.reshape(-1)[first:],
+            state.material.reshape(-1)[first:], self.curve[first:],
+            self.stiffnesses[first:], self.speeds[first:],
         )  # fmt: skip
         out = np.zeros(march.OUT)
         self._zone_functions[layer](*_pointers(arrays), zones, self.column.zones, *_pointers((out,)))
@@ -124,7 +127,13 @@ def _locate_probes(column: Column) -> tuple[np.ndarray, np.ndarray]:
 
 def zone_function(law: Component) -> tuple[Callable, int]:
     """The zone kernel of a law: as Python where kernels are interpreted, else its address."""
-    return _component_kernel("zones", zone_places.zone_kernel, zone_places.SIGNATURE, law, len(type(law).history))
+    factory = zone_places.foam_kernel if _keeps_its_curve(law) else zone_places.zone_kernel
+    return _component_kernel(factory.__name__, factory, zone_places.SIGNATURE, law, len(type(law).history))
+
+
+def _keeps_its_curve(law: Component) -> bool:
+    """Whether the law is a foam as `Foam.point` has it, whose loading curve is only asked at the largest strain."""
+    return isinstance(law, Foam) and type(law).point is Foam.point and not law.is_reversible and not law.history
 
 
 def end_function(boundary: Component) -> tuple[Callable, int]:

@@ -9,94 +9,188 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from hydro1d.kernels.primitives import accumulate, gather, order, scatter, unorder
+from hydro1d.kernels.primitives import accumulate, gather, larger, scatter
 
 # p: pointer to double, i: integer
-SIGNATURE = "ppppppppiip"
+SIGNATURE = "pppppppppppiip"
 
 # Places in `numbers`, the scalars of a call ...
 STEP, KICK, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, SMOOTH_LINEAR, QUADRATIC = range(8)
 NUMBERS = 8
+AFRESH = NUMBERS  # not 0 where nothing that `foam_kernel` remembers holds
 # ... and in `out`, what comes back: largest stiffness/ρ0, largest viscous speed, stress and strain, work of the viscosity.
 STIFFNESS, VISCOUS_SPEED, STRESS, STRAIN, VISCOUS_POWER = range(5)
 RESULTS = 5
 
-ADVANCE, OBSERVE = 0, 1
+CHUNK = 64  # zones that ask for their loading curve together: few, since one that crushes further makes all ask
+
+_DOC = """Advance ``zones`` zones over a step.
+
+velocity, velocity_before (node i at i + 1; at n + ½ and n − ½) and displacement (new) are over nodes; energy (specific) and
+force (σ + q) over zones; state holds the largest strain and then the law's history, each `stride` long.
+curve, stiffnesses and speeds are what `foam_kernel` remembers: stress on the loading curve, stiffness, speed of the linear
+viscosity. The number of zones is negative to observe: `force` becomes the stress alone, nothing else changes. A NaN anywhere
+comes back as the stiffness.
+"""
 
 
 def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
     """The kernel of the law that ``unpack`` builds from its parameters; the law has one history variable an entry."""
 
     def sweep(
-        parameters: Any,
-        numbers: Any,
-        velocity: Any,
-        velocity_before: Any,
-        displacement: Any,
-        energy: Any,
-        force: Any,
-        state: Any,
-        zones: int,
-        stride: int,
-        out: Any,
-    ) -> None:
-        """Advance ``zones`` zones over a step.
-
-        velocity, velocity_before (node i at i + 1; at n + ½ and n − ½) and displacement (new) are over nodes; energy
-        (specific) and force (σ + q) over zones; state holds the largest strain and then the law's history, each `stride`
-        long. The number of zones is negative to observe: `force` becomes the stress alone, nothing else changes.
-        """
+        parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
+        state: Any, curve: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int, out: Any,
+    ) -> None:  # fmt: skip
         law = unpack(parameters)
-        step, half_kick = numbers[STEP], 0.5 * numbers[KICK]
+        if zones < 0:
+            observe(law, history_count, numbers, velocity, displacement, energy, force, state, -zones, stride)
+            return
         per_size, per_density, density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY], numbers[DENSITY]
         linear, smooth_linear, quadratic = numbers[LINEAR], numbers[SMOOTH_LINEAR], numbers[QUADRATIC]
-        work = per_size * per_density  # per unit force, velocity jump and time: what a zone gains per mass
-
-        if zones < 0:
-            for i in range(-zones):
-                strain = (displacement[i] - displacement[i + 1]) * per_size
-                rate = (velocity[i + 1] - velocity[i + 2]) * per_size
-                history = gather(state, stride + i, stride, history_count)
-                largest = max(state[i], strain)
-                stress, _, _, _, _ = law.point(strain, largest, rate, energy[i], history)
-                force[i] = stress
-            return
-
-        top_stiffness, top_speed, top_stress, top_strain = order(0.0), order(0.0), order(0.0), order(0.0)
-        power = 0.0
+        to_kick, to_strain = work_factors(numbers)
+        top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(zones):
             jump = velocity[i + 1] - velocity[i + 2]
-            jump_before = velocity_before[i + 1] - velocity_before[i + 2]
             strain = (displacement[i] - displacement[i + 1]) * per_size
             largest = max(state[i], strain)
-
-            # Compatible work: the force that moved the nodes, on the velocity with which it moved them.
-            gained = energy[i] + work * force[i] * half_kick * (jump_before + jump)
+            gained = energy[i] + force[i] * to_kick * (velocity_before[i + 1] - velocity_before[i + 2] + jump)
             energy[i] = gained
-            now = gained + 0.5 * step * work * force[i] * jump  # at the time of the strain, to second order
+            now = gained + force[i] * to_strain * jump
             history = gather(state, stride + i, stride, history_count)
             stress, tangent, stiffness, smooth, history = law.point(strain, largest, jump * per_size, now, history)
-
-            # Where the flow is smooth, the part of the jump that the neighbours share is no shock.
-            left, right = velocity[i] - velocity[i + 1], velocity[i + 2] - velocity[i + 3]
-            shared = max(min(min(0.5 * (left + right), 2.0 * min(left, right)), jump), 0.0)
-            closing = max(jump, 0.0) - (shared if smooth else 0.0)
+            closing = max(jump, 0.0) - (shared_jump(velocity, i, jump) if smooth else 0.0)
             crowding = quadratic * closing / law.room(strain, closing)
             speed = (smooth_linear if smooth else linear) * math.sqrt(tangent * per_density) + crowding
             viscosity = density * closing * speed
-
             state[i] = largest
             scatter(state, stride + i, stride, history)
             force[i] = stress + viscosity
-            power = accumulate(power, viscosity * jump)
-            top_stiffness = max(top_stiffness, order(stiffness))
-            top_speed = max(top_speed, order(speed + crowding))
-            top_stress = max(top_stress, order(stress))
-            top_strain = max(top_strain, order(strain))
-        out[STIFFNESS] = unorder(top_stiffness) * per_density
-        out[VISCOUS_SPEED] = unorder(top_speed)
-        out[STRESS] = unorder(top_stress)
-        out[STRAIN] = unorder(top_strain)
-        out[VISCOUS_POWER] = power
+            power = accumulate(power, viscosity * jump + 0.0 * force[i])
+            top_stiffness = larger(top_stiffness, stiffness)
+            top_speed = larger(top_speed, speed + crowding)
+            top_stress = larger(top_stress, stress)
+            top_strain = larger(top_strain, strain)
+        answer(out, top_stiffness * per_density, top_speed, top_stress, top_strain, power)
 
+    sweep.__doc__ = _DOC
     return sweep
+
+
+def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
+    """The kernel of a `Foam` that unloads on its steep line.
+
+    Its loading curve is asked for only where the largest strain grows, and remembered: the curve may cost what it likes, and
+    most zones pay nothing for it.
+    """
+
+    def sweep(
+        parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
+        state: Any, curve: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int, out: Any,
+    ) -> None:  # fmt: skip
+        law = unpack(parameters)
+        if zones < 0:
+            observe(law, history_count, numbers, velocity, displacement, energy, force, state, -zones, stride)
+            return
+        per_size, per_density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY]
+        linear, smooth_linear = numbers[LINEAR], numbers[SMOOTH_LINEAR]
+        top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
+        for start in range(0, zones, CHUNK):
+            end = min(start + CHUNK, zones)
+            grown, smooth = int(numbers[AFRESH]), 0
+            for i in range(start, end):
+                grown |= int((displacement[i] - displacement[i + 1]) * per_size > state[i])
+                smooth |= int(law.never_yielded(state[i]))
+            if grown != 0:
+                for i in range(start, end):
+                    state[i] = max(state[i], (displacement[i] - displacement[i + 1]) * per_size)
+                    curve[i], stiffnesses[i] = law.loading(state[i])
+                for i in range(start, end):
+                    linear_here = smooth_linear if law.never_yielded(state[i]) else linear
+                    speeds[i] = linear_here * math.sqrt(stiffnesses[i] * per_density)
+                    stiffnesses[i] = law.slope_below(state[i], stiffnesses[i])
+                    # No zone's stress is ever above its loading curve, nor its strain above its largest.
+                    top_stress = larger(top_stress, curve[i])
+                    top_strain = larger(top_strain, state[i])
+            stiffness, speed, work = push(law, numbers, velocity, velocity_before, displacement, energy, force, state,
+                                          curve, stiffnesses, speeds, start, end, smooth)  # fmt: skip
+            top_stiffness, top_speed, power = larger(top_stiffness, stiffness), larger(top_speed, speed), power + work
+        answer(out, top_stiffness * per_density, top_speed, top_stress, top_strain, power)
+
+    sweep.__doc__ = _DOC
+    return sweep
+
+
+def push(
+    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any, state: Any,
+    curve: Any, stiffnesses: Any, speeds: Any, start: int, end: int, smooth: int,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Energy and force of zones whose loading curve is known; the limiter only where there is smooth flow at all."""
+    if smooth != 0:
+        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, stiffnesses,
+                          speeds, start, end, True)  # fmt: skip
+    return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, stiffnesses,
+                      speeds, start, end, False)  # fmt: skip
+
+
+def push_zones(
+    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any, state: Any,
+    curve: Any, stiffnesses: Any, speeds: Any, start: int, end: int, limited: bool,
+) -> tuple[float, float, float]:  # fmt: skip
+    """The loop of `push`. Returns the largest stiffness, the largest viscous speed and the work of the viscosity."""
+    per_size, density, quadratic = numbers[INVERSE_SIZE], numbers[DENSITY], numbers[QUADRATIC]
+    to_kick, _ = work_factors(numbers)
+    top_stiffness, top_speed, power = 0.0, 0.0, 0.0
+    for i in range(start, end):
+        jump = velocity[i + 1] - velocity[i + 2]
+        energy[i] += force[i] * to_kick * (velocity_before[i + 1] - velocity_before[i + 2] + jump)
+        strain = (displacement[i] - displacement[i + 1]) * per_size
+        stress = law.stress_below(state[i] - strain, curve[i], stiffnesses[i])
+        closing = max(jump, 0.0)
+        if limited:
+            closing -= shared_jump(velocity, i, jump) if law.never_yielded(state[i]) else 0.0
+        crowding = quadratic * closing / law.room(strain, closing)
+        speed = speeds[i] + crowding
+        viscosity = density * closing * speed
+        force[i] = stress + viscosity
+        power = accumulate(power, viscosity * jump + 0.0 * force[i])
+        top_stiffness = larger(top_stiffness, stiffnesses[i])
+        top_speed = larger(top_speed, speed + crowding)
+    return top_stiffness, top_speed, power
+
+
+def work_factors(numbers: Any) -> tuple[float, float]:
+    """Specific energy per force and velocity jump, over half a kick and from there to the time of the strain.
+
+    Compatible work: the force that moved the nodes, on the mean of the velocities between which it moved them.
+    """
+    per_mass = numbers[INVERSE_SIZE] * numbers[INVERSE_DENSITY]
+    return 0.5 * numbers[KICK] * per_mass, 0.5 * numbers[STEP] * per_mass
+
+
+def shared_jump(velocity: Any, i: int, jump: float) -> float:
+    """The part of a closing zone's velocity jump that its neighbours share: where the flow is smooth, that is no shock."""
+    left, right = velocity[i] - velocity[i + 1], velocity[i + 2] - velocity[i + 3]
+    return max(min(min(0.5 * (left + right), 2.0 * min(left, right)), jump), 0.0)
+
+
+def answer(out: Any, stiffness: float, speed: float, stress: float, strain: float, power: float) -> None:
+    """Hand the maxima back. They do not see a NaN; the sum does."""
+    out[STIFFNESS] = stiffness if power == power else math.nan
+    out[VISCOUS_SPEED] = speed
+    out[STRESS] = stress
+    out[STRAIN] = strain
+    out[VISCOUS_POWER] = power
+
+
+def observe(
+    law: Any, history_count: Any, numbers: Any, velocity: Any, displacement: Any, energy: Any, stresses: Any, state: Any,
+    zones: int, stride: int,
+) -> None:  # fmt: skip
+    """The stress alone of each zone as it stands."""
+    per_size = numbers[INVERSE_SIZE]
+    for i in range(zones):
+        strain = (displacement[i] - displacement[i + 1]) * per_size
+        rate = (velocity[i + 1] - velocity[i + 2]) * per_size
+        history = gather(state, stride + i, stride, history_count)
+        stress, _, _, _, _ = law.point(strain, max(state[i], strain), rate, energy[i], history)
+        stresses[i] = stress

@@ -97,10 +97,20 @@ class Foam(Law):
         """Loading curve up to the largest strain, a steep line below it."""
         top = strain if self.is_reversible > 0.0 else largest
         stress, tangent = self.loading(top)
-        elastic = largest <= self.yield_strain
-        stiffness = self.modulus if elastic else max(self.unloading_stiffness, tangent)
-        stress = max(stress - stiffness * (top - strain), self.least_stress)
-        return stress, tangent, stiffness, elastic, history
+        stiffness = self.slope_below(largest, tangent)
+        return self.stress_below(top - strain, stress, stiffness), tangent, stiffness, self.never_yielded(largest), history
+
+    def never_yielded(self, largest: float) -> bool:
+        """Whether a point with this largest strain has never yielded."""
+        return largest <= self.yield_strain
+
+    def slope_below(self, largest: float, tangent: float) -> float:
+        """Stiffness (Pa) of a point with this largest strain, where the loading curve has this tangent."""
+        return self.modulus if largest <= self.yield_strain else max(self.unloading_stiffness, tangent)
+
+    def stress_below(self, below: float, stress: float, slope: float) -> float:
+        """Stress (Pa) at the strain ``below`` under a point of the loading curve."""
+        return max(stress - slope * below, self.least_stress)
 
     @derived
     def is_reversible(self) -> float:

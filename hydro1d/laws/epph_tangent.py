@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from hydro1d.laws._cotangent import cotangent
 from hydro1d.laws.base import PlateauFoam
 from hydro1d.parameters import derived, fraction, positive
 
@@ -20,9 +21,9 @@ class EPPHTangent(PlateauFoam):
 
     def hardening(self, over: float) -> tuple[float, float]:
         """Eq. 38 less the plateau, and its derivative σP β (1 + tan²) γ π/2/(1 − εD)."""
-        tangent = math.tan(self.start_angle + self.angle_rate * over)
+        tangent, secant_squared = cotangent(self.end_angle - self.angle_rate * over)  # of the complement
         scale = self.plateau_stress * self.beta
-        return scale * (tangent - self.start_tangent), scale * self.angle_rate * (1.0 + tangent * tangent)
+        return scale * (tangent - self.start_tangent), scale * self.angle_rate * secant_squared
 
     @derived
     def angle_rate(self) -> float:
@@ -30,11 +31,11 @@ class EPPHTangent(PlateauFoam):
         return self.gamma * 0.5 * math.pi / (1.0 - self.densification_strain)
 
     @derived
-    def start_angle(self) -> float:
-        """Angle at densification."""
-        return (1.0 - self.gamma) * 0.5 * math.pi
+    def end_angle(self) -> float:
+        """Angle that is left at densification to π/2, which full strain reaches."""
+        return self.gamma * 0.5 * math.pi
 
     @derived
     def start_tangent(self) -> float:
-        """Its tangent."""
-        return math.tan(self.start_angle)
+        """Tangent at densification."""
+        return cotangent(self.end_angle)[0]
