@@ -20,6 +20,19 @@ if TYPE_CHECKING:
     from hydro1d.store import Run
 
 
+class Share(float):
+    """The share of the simulated time that is done, with that time (s) and the cycles."""
+
+    time: float
+    cycles: int
+
+    def __new__(cls, share: float, time: float, cycles: int) -> Share:
+        """A number that knows more."""
+        number = super().__new__(cls, share)
+        number.time, number.cycles = float(time), int(cycles)
+        return number
+
+
 def column_of(deck: Deck) -> Column:
     """The column that a deck describes."""
     return build_column(
@@ -114,7 +127,9 @@ def _read_restart(deck: Deck, path: Path, force: bool) -> tuple[Any, State]:
 
 
 def _share(column: Column, progress: Callable[[float], None] | None) -> Callable[[State], None] | None:
-    return None if progress is None else lambda state: progress(min(state.time / column.end_time, 1.0))
+    if progress is None:
+        return None
+    return lambda state: progress(Share(min(state.time / column.end_time, 1.0), state.time, state.cycle))
 
 
 def _raise_unless_complete(outcome: Outcome, written: Path | None) -> None:

@@ -51,10 +51,13 @@ def progress_bar(quiet: bool) -> Iterator[Callable[[float], None] | None]:
         return
     from tqdm import tqdm
 
-    layout = "{percentage:3.0f}% {bar} {elapsed}<{remaining}"
+    layout = "{percentage:3.0f}% {bar} {desc}{elapsed}, {remaining} left"
     with tqdm(total=1.0, bar_format=layout, leave=False, file=sys.stderr) as bar:
 
         def show(share: float) -> None:
+            time, cycles = getattr(share, "time", None), getattr(share, "cycles", 0)
+            if time is not None:
+                bar.set_description_str(f"t = {figure(time, 's')}, {cycles} cycles, ", refresh=False)
             bar.update(min(max(share, 0.0), 1.0) - bar.n)
 
         yield show

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from hydro1d.cli import _common
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from hydro1d.deck import Deck
@@ -27,6 +28,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--force", action="store_true", help="restart although deck or law differ from the checkpoint's"
     )
     parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
+    parser.add_argument(
+        "--log-json", metavar="FILE", type=_common.path,
+        help="write start, progress and result as JSON, one object a line; - is standard output",
+    )  # fmt: skip
 
 
 def run(args: argparse.Namespace) -> None:
@@ -38,12 +43,41 @@ def run(args: argparse.Namespace) -> None:
     from hydro1d.store import check_target
 
     check_target(output)
+    result = (_calculate if args.log_json is None else _logged)(args, deck, output)
+    if not args.quiet and str(args.log_json) != "-":
+        print("\n".join(summary(deck, result, output)))
+
+
+def _calculate(args: argparse.Namespace, deck: Deck, output: Path, told: Callable[[float], None] | None = None) -> Run:
+    """Run the deck; `told` hears of progress as well as the terminal does."""
     from hydro1d.api import run as calculate
 
-    with _common.progress_bar(args.quiet) as progress:
-        result = calculate(deck, output, restart=args.restart, force=args.force, progress=progress)
-    if not args.quiet:
-        print("\n".join(summary(deck, result, output)))
+    with _common.progress_bar(args.quiet) as shown:
+
+        def both(share: float) -> None:
+            for listener in (shown, told):
+                if listener is not None:
+                    listener(share)
+
+        progress = both if told is not None else shown
+        return calculate(deck, output, restart=args.restart, force=args.force, progress=progress)
+
+
+def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:
+    """Run the deck and keep a log for other programs."""
+    from hydro1d.cli._log import JsonLog
+
+    log = JsonLog(args.log_json)
+    try:
+        log.start(deck, output)
+        result = _calculate(args, deck, output, log.progress)
+        log.done(result, output)
+        return result
+    except (Exception, KeyboardInterrupt) as error:
+        log.error(error)
+        raise
+    finally:
+        log.close()
 
 
 def summary(deck: Deck, result: Run, output: Path) -> list[str]:

@@ -1,0 +1,76 @@
+"""A run's messages for other programs: JSON, one object a line."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from typing import TYPE_CHECKING, Any, TextIO
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from hydro1d.deck import Deck
+    from hydro1d.store import Run
+
+INTERVAL = 1.0  # s of wall time between two messages of progress
+
+
+class JsonLog:
+    """Writes {"event": "start" | "progress" | "done" | "error", …}, values in SI, to a file or ("-") standard output."""
+
+    def __init__(self, target: Path) -> None:
+        from hydro1d.errors import FileProblem
+
+        self._began = self._last = time.monotonic()
+        self.on_standard_output = str(target) == "-"
+        try:
+            self._stream: TextIO = sys.stdout if self.on_standard_output else open(target, "w", encoding="utf-8")  # noqa: SIM115
+        except OSError as error:
+            raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
+
+    def write(self, event: str, **values: Any) -> None:
+        """One line, at once readable by whoever follows the file."""
+        finite = {
+            name: None if isinstance(value, float) and value != value else value for name, value in values.items()
+        }
+        record = {"event": event, "wall": round(time.monotonic() - self._began, 3), **finite}
+        print(json.dumps(record), file=self._stream, flush=True)
+
+    def start(self, deck: Deck, output: Path) -> None:
+        """What is about to be run."""
+        zones = sum(layer.zones for layer in deck.layers)
+        self.write("start", title=deck.title, output=str(output), zones=zones, end_time=deck.time.end)
+
+    def progress(self, share: float) -> None:
+        """How far, once every `INTERVAL`."""
+        if time.monotonic() - self._last >= INTERVAL:
+            self._last = time.monotonic()
+            seen = {name: getattr(share, name) for name in ("time", "cycles") if hasattr(share, name)}
+            self.write("progress", share=round(float(share), 6), **seen)
+
+    def done(self, result: Run, output: Path) -> None:
+        """What came out."""
+        history = result.history
+        last = ("peak_left_stress", "peak_right_stress", "peak_stress", "uncrushed_fraction", "boundary_work")
+        self.write(
+            "done",
+            status=result.status,
+            output=str(output),
+            time=float(history["time"][-1]),
+            cycles=int(result.attributes["cycles"]),
+            wall_seconds=float(result.attributes["wall_seconds"]),
+            peak_applied_pressure=float(result.attributes["peak_applied_pressure"]),
+            energy_error=float(abs(history["energy_error"]).max()),
+            **{name: float(history[name][-1]) for name in last},
+        )
+
+    def error(self, error: BaseException) -> None:
+        """What went wrong; the exit code is that of the command."""
+        code = 130 if isinstance(error, KeyboardInterrupt) else int(getattr(error, "exit_code", 1))
+        self.write("error", exit_code=code, message=str(error))
+
+    def close(self) -> None:
+        """Close the file, if it is one."""
+        if not self.on_standard_output:
+            self._stream.close()

@@ -1,0 +1,135 @@
+"""``hydro1d completion``: let the shell complete commands and options."""
+
+from __future__ import annotations
+
+import argparse
+from typing import NamedTuple
+
+HELP = "print a completion script for bash, zsh or fish"
+SHELLS = ("bash", "zsh", "fish")
+
+
+class Option(NamedTuple):
+    """What a shell can offer: the words, their explanation, values if there are only a few."""
+
+    words: tuple[str, ...]
+    help: str
+    choices: tuple[str, ...]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of ``hydro1d completion``."""
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser.epilog = (
+        "bash:  hydro1d completion bash > ~/.local/share/bash-completion/completions/hydro1d\n"
+        "zsh:   hydro1d completion zsh > a folder of $fpath, as _hydro1d\n"
+        "fish:  hydro1d completion fish > ~/.config/fish/completions/hydro1d.fish"
+    )
+    parser.add_argument("shell", choices=SHELLS)
+
+
+def run(args: argparse.Namespace) -> None:
+    """Print the script."""
+    print({"bash": _bash, "zsh": _zsh, "fish": _fish}[args.shell](grammar()), end="")
+
+
+def grammar() -> dict[str, tuple[str, list[Option]]]:
+    """Explanation and options of every command, read off its argparse parser."""
+    from hydro1d import cli
+
+    found = {}
+    for name in cli.commands():
+        try:
+            module = cli._module(name)
+            parser = argparse.ArgumentParser(add_help=True)
+            module.add_arguments(parser)
+        except Exception:  # a command whose extra is not installed is left out
+            continue
+        found[name] = (str(module.HELP), [_option(action) for action in parser._actions])
+    found.get("new", ("", []))[1].append(Option((), "", _cases()))
+    found.get("plot", ("", []))[1].append(Option((), "", _kinds()))
+    found.get("laws", ("", []))[1].append(Option((), "", ("plot", "fit")))
+    return found
+
+
+def _option(action: argparse.Action) -> Option:
+    choices = tuple(str(choice) for choice in action.choices) if action.choices else ()
+    text = action.help if action.help and action.help != argparse.SUPPRESS else ""
+    return Option(tuple(action.option_strings), text.replace("%%", "%"), choices)
+
+
+def _cases() -> tuple[str, ...]:
+    from hydro1d.cli.new import CASES
+
+    return tuple(CASES)
+
+
+def _kinds() -> tuple[str, ...]:
+    from hydro1d.cli.plot import KINDS
+
+    return tuple(KINDS)
+
+
+def _words(options: list[Option]) -> str:
+    """Options, and the words that may stand by themselves."""
+    return " ".join(word for option in options for word in (option.words or option.choices))
+
+
+def _bash(commands: dict[str, tuple[str, list[Option]]]) -> str:
+    cases = "\n".join(f'        {name}) words="{_words(options)}" ;;' for name, (_, options) in commands.items())
+    return f"""# bash completion for hydro1d
+_hydro1d() {{
+    local word="${{COMP_WORDS[COMP_CWORD]}}" words=""
+    if [ "$COMP_CWORD" -eq 1 ]; then
+        COMPREPLY=($(compgen -W "{" ".join(commands)}" -- "$word"))
+        return
+    fi
+    case "${{COMP_WORDS[1]}}" in
+{cases}
+    esac
+    COMPREPLY=($(compgen -W "$words" -- "$word") $(compgen -f -- "$word"))
+}}
+complete -o filenames -F _hydro1d hydro1d
+"""
+
+
+def _zsh(commands: dict[str, tuple[str, list[Option]]]) -> str:
+    listed = "\n".join(f"        '{name}:{_quoted(text)}'" for name, (text, _) in commands.items())
+    cases = "\n".join(
+        f"        {name}) compadd -- {_words(options)}; _files ;;" for name, (_, options) in commands.items()
+    )
+    return f"""#compdef hydro1d
+_hydro1d() {{
+    local -a commands
+    commands=(
+{listed}
+    )
+    if (( CURRENT == 2 )); then
+        _describe 'command' commands
+        return
+    fi
+    case "$words[2]" in
+{cases}
+    esac
+}}
+compdef _hydro1d hydro1d
+"""
+
+
+def _fish(commands: dict[str, tuple[str, list[Option]]]) -> str:
+    lines = ["# fish completion for hydro1d"]
+    for name, (text, options) in commands.items():
+        lines.append(f"complete -c hydro1d -n __fish_use_subcommand -f -a {name} -d '{_quoted(text)}'")
+        for option in options:
+            given = [f"-l {word[2:]}" if word.startswith("--") else f"-s {word[1:]}" for word in option.words]
+            values = [f"-a '{' '.join(option.choices)}'"] if option.choices else []
+            if given or values:
+                about = f"-d '{_quoted(option.help)}'" if option.help else ""
+                where = f"-n '__fish_seen_subcommand_from {name}'"
+                lines.append(" ".join(filter(None, ["complete -c hydro1d", where, *given, *values, about])))
+    return "\n".join(lines) + "\n"
+
+
+def _quoted(text: str) -> str:
+    """Text within single quotes of any of the shells."""
+    return text.replace("'", "’").replace("\\", "")
