@@ -11,14 +11,18 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
 
+import matplotlib  # noqa: E402
+
 import hydro1d  # noqa: E402
+
+matplotlib.use("agg")
 
 project = "hydro1d"
 author = "The hydro1d developers"
 copyright = author
 version = release = hydro1d.__version__
 
-extensions = ["myst_nb", "matplotlib.sphinxext.plot_directive", "reference"]
+extensions = ["myst_nb", "reference"]
 exclude_patterns = ["_build", "jupyter_execute", "**.ipynb_checkpoints"]
 
 html_theme = "furo"
@@ -38,13 +42,6 @@ nb_execution_raise_on_error = True
 nb_execution_in_temp = True
 nb_execution_timeout = 180
 nb_merge_streams = True
-
-plot_formats = ["svg"]
-plot_include_source = False
-plot_html_show_formats = False
-plot_html_show_source_link = False
-plot_working_directory = str(HERE)
-plot_pre_code = "import numpy as np\nfrom matplotlib import pyplot as plt\nimport figures"
 
 os.environ["COLUMNS"] = "100"  # the width of the help texts
 

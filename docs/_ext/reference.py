@@ -4,10 +4,14 @@
 ``{command} run`` the help of a subcommand; ``{commands}`` the table of all.
 ``{quantities} history`` what a result holds, from the writer's own list.
 ``{units}`` the units that a deck may use.
+``{drawing} text`` a figure: the Python code of the directive makes it; the argument says what it shows.
 """
 
 import argparse
+import hashlib
+import os
 from collections.abc import Iterable
+from pathlib import Path
 
 from docutils import nodes
 from docutils.statemachine import StringList
@@ -106,20 +110,11 @@ class Command(MarkdownDirective):
         from hydro1d import cli
 
         words = self.arguments
-        module = cli._module(words[0])
-        parser = argparse.ArgumentParser(f"hydro1d {words[0]}", description=module.HELP)
+        name = f"_{words[0]}_{words[1]}" if len(words) > 1 else words[0]
+        module = cli._module(name)
+        parser = argparse.ArgumentParser(f"hydro1d {' '.join(words)}", description=module.HELP)
         module.add_arguments(parser)
-        if len(words) > 1:
-            parser = subparser(parser, words[1])
         return ["```text", parser.format_help().rstrip(), "```", ""]
-
-
-def subparser(parser: argparse.ArgumentParser, name: str) -> argparse.ArgumentParser:
-    """The parser of a word such as ``plot`` in ``hydro1d laws plot``."""
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            return action.choices[name]
-    raise ValueError(f"{parser.prog} has no subcommands")
 
 
 class Commands(MarkdownDirective):
@@ -163,6 +158,35 @@ class Units(MarkdownDirective):
         return table(("quantity", "for example"), [(text, units) for text, units in KINDS.values()])
 
 
+class Drawing(SphinxDirective):
+    """A figure made by code at build time; the last expression may be left out where pyplot has the figure."""
+
+    required_arguments = 1
+    final_argument_whitespace = True
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        """Run the code in the documentation's folder, save what it drew, show it."""
+        import figures
+        from matplotlib import pyplot as plt
+
+        code = "\n".join(self.content)
+        folder = Path(self.env.doctreedir) / "drawings"
+        folder.mkdir(parents=True, exist_ok=True)
+        target = folder / f"{Path(self.env.docname).name}-{hashlib.sha256(code.encode()).hexdigest()[:12]}.svg"
+        before = Path.cwd()
+        os.chdir(self.env.srcdir)
+        try:
+            names = {"figures": figures, "plt": plt}
+            exec(compile(code, f"{self.env.docname}:{self.lineno}", "exec"), names)
+            (names.get("figure") or plt.gcf()).savefig(target, metadata={"Date": None})
+        finally:
+            os.chdir(before)
+            plt.close("all")
+        page = Path(self.env.doc2path(self.env.docname)).parent
+        return [nodes.image(uri=os.path.relpath(target, page), alt=self.arguments[0], classes=["drawing"])]
+
+
 def setup(app):
     """Register the directives."""
     app.add_directive("keys", Keys)
@@ -170,4 +194,5 @@ def setup(app):
     app.add_directive("commands", Commands)
     app.add_directive("quantities", QuantitiesOf)
     app.add_directive("units", Units)
-    return {"parallel_read_safe": True, "parallel_write_safe": True}
+    app.add_directive("drawing", Drawing)
+    return {"parallel_read_safe": False, "parallel_write_safe": True}
