@@ -47,7 +47,7 @@ def scan_points(low: float, high: float, scan: int, spacing: str = "linear") -> 
 
 
 def find_flip(
-    decide: Callable[[float], bool],
+    decide: Callable[[float], bool | None],
     low: float,
     high: float,
     *,
@@ -58,9 +58,13 @@ def find_flip(
     """Bracket the change of ``decide`` between low and high to a relative ``tolerance``.
 
     ``scan`` evaluations spread over the whole bracket come first and show whether there is just one change; bisection
-    follows. Raises NoFlip if they all agree.
+    follows. None for an answer means that there is none; such values of the scan are left out. Raises NoFlip if all agree,
+    and if bisection meets a None.
     """
-    evaluations = [(value, bool(decide(value))) for value in scan_points(low, high, max(scan, 2), spacing)]
+    answers = [(value, decide(value)) for value in scan_points(low, high, max(scan, 2), spacing)]
+    evaluations = [(value, bool(answer)) for value, answer in answers if answer is not None]
+    if not evaluations:
+        raise NoFlip(f"there is no answer from {low:.6g} to {high:.6g}", False, [])
     changes = [k for k in range(len(evaluations) - 1) if evaluations[k][1] != evaluations[k + 1][1]]
     if not changes:
         answer = evaluations[0][1]
@@ -72,7 +76,10 @@ def find_flip(
         middle = 0.5 * (a + b)
         if middle in (a, b):
             break
-        answer = bool(decide(middle))
+        found = decide(middle)
+        if found is None:
+            raise NoFlip(f"there is no answer at {middle:.6g}, between no and yes", before, evaluations)
+        answer = bool(found)
         evaluations.append((middle, answer))
         a, b = (middle, b) if answer == before else (a, middle)
     return Flip(min(a, b), max(a, b), before if a <= b else not before, len(changes) == 1, evaluations)

@@ -114,7 +114,11 @@ def simulate(
     rows = _ROWS
     if looks and None not in looks:
         rows = int(np.clip(_WORK_PER_LOOK // (column.zones * column.history_every), 1, _ROWS))
-    ending = solve(column, sink, program=Program(column, rows), asked_to_stop=lambda: sink.decided or asked_to_stop())
+    program = Program(column, rows)
+    ending = solve(column, sink, program=program, asked_to_stop=lambda: sink.decided or asked_to_stop())
+    if ending.status == "failed" and ending.state is not None:  # what was reached up to there counts
+        program.advance(ending.state, stop=ending.state.time, steps=0, row_at_stop=True)
+        sink.history(*program.recorded(ending.state))
     status = "decided" if ending.status == "interrupted" and sink.decided else ending.status
     ending = Ending(status, ending.cycles, ending.time, ending.wall_seconds, ending.message, ending.zone, ending.state)
     return sink.finish(status, ending.cycles, ending.wall_seconds), ending

@@ -1,0 +1,38 @@
+"""``hydro1d reproduce``: every figure and number of the paper."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+HELP = "regenerate every figure and number of Harrigan, Reid & Seyed Yaghoubi 2010"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Options of ``hydro1d reproduce``."""
+    parser.add_argument("--out", metavar="DIR", type=Path, default=Path("paper"), help="where to; default: paper")
+    parser.add_argument("--quick", action="store_true", help="coarser, fewer points, the same figures: under two minutes")
+    parser.add_argument("--only", metavar="FIGURE", action="append", default=[], help="one figure, for example 6; can be repeated")
+    parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
+    parser.add_argument("--quiet", action="store_true", help="do not say what is being made")
+
+
+def run(args: argparse.Namespace) -> None:
+    """Make the figures and the page."""
+    from hydro1d.deck.messages import one_of
+    from hydro1d.errors import DeckError
+    from hydro1d.paper.reproduce import PARTS, reproduce
+
+    names = [name for name, _ in PARTS]
+    unknown = [name for name in args.only if name not in names]
+    if unknown:
+        raise DeckError(f"--only {unknown[0]}: there is no such part; there are {one_of(names)}")
+    if args.threads is not None and args.threads < 1:
+        raise DeckError(f"--threads {args.threads}: at least 1")
+
+    def say(text: str) -> None:
+        if not args.quiet:
+            print(text, flush=True)
+
+    page = reproduce(args.out, quick=args.quick, only=tuple(args.only), threads=args.threads, say=say)
+    say(f"page: {page}")

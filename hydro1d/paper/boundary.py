@@ -1,0 +1,105 @@
+"""Boundaries in (duration, pressure): the duration at which a pulse just crushes the whole column, or is just enhanced.
+
+Both criteria are asked of the same runs. A run ends when nothing can happen any more: the load puts in the momentum P T,
+a wall that bears at least σP takes it out by T P/σP after the first wave has reached it, L/c0; a quarter is added.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import Any
+
+from hydro1d.errors import DeckError
+from hydro1d.sweep import Column, Flip, Job, NoFlip, Table, evaluate, find_flip
+from hydro1d.sweep.base import threads_here
+from hydro1d.sweep.job import override
+
+CRITERIA = ("fully_crushed", "enhanced")
+PLATEAU, DENSITY, LENGTH, ELASTIC_TIME = 0.8e6, 51.6, 1.0, 1.0 / math.sqrt(22e6 / 51.6)
+LATER = 1.25  # end of a run over the time by which all momentum is gone
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One boundary: its name, the deck's data with overrides, and the bracket as multiples of a first guess of T."""
+
+    name: str
+    data: Mapping[str, Any]
+    overrides: tuple[str, ...] = ()
+    bracket: tuple[float, float] = (0.5, 4.0)
+    later: float = LATER
+    criteria: tuple[str, ...] = CRITERIA
+
+
+@dataclass
+class Point:
+    """The critical durations (s) at one pressure (Pa), by criterion; NaN where there is none, and why."""
+
+    pressure: float
+    durations: dict[str, float] = field(default_factory=dict)
+    monotonic: bool = True
+    message: str = ""
+    runs: int = 0
+
+
+def critical_durations(curve: Curve, pressure: float, guess: float, tolerance: float, scan: int = 5) -> Point:
+    """Both critical durations at one pressure; a run is done once for both."""
+    point, known = Point(pressure), {}  # type: Point, dict[float, dict[str, Any]]
+
+    def row_at(duration: float) -> dict[str, Any]:
+        if duration not in known:
+            known[duration] = evaluate(_job(curve, pressure, duration))
+        return known[duration]
+
+    for criterion in curve.criteria:
+
+        def decide(duration: float, criterion: str = criterion) -> bool | None:
+            row = row_at(duration)
+            if row["status"] == "failed" and row[criterion] != 1.0:
+                return None  # it broke down before the question was answered
+            return bool(row[criterion] == 1.0)
+
+        low, high = (guess * share for share in curve.bracket)
+        try:
+            flip: Flip = find_flip(decide, low, high, tolerance=tolerance, scan=scan, spacing="log")
+            point.durations[criterion] = flip.value
+            point.monotonic &= flip.monotonic
+        except (NoFlip, DeckError) as error:
+            point.durations[criterion] = math.nan
+            point.message += f"{criterion}: {error} "
+    point.runs = len(known)
+    return point
+
+
+def _job(curve: Curve, pressure: float, duration: float) -> Job:
+    end = curve.later * (duration * pressure / PLATEAU + ELASTIC_TIME)
+    texts = (override("left.peak", pressure), override("left.duration", duration), override("time.end", end))
+    return Job(curve.data, ".", (*curve.overrides, *texts), (), curve.criteria, stop_early=True)
+
+
+def trace_curves(
+    curves: Sequence[Curve], pressures: Sequence[float], guess: Callable[[float], float], tolerance: float,
+    threads: int | None = None, scan: int = 5,
+) -> dict[str, list[Point]]:  # fmt: skip
+    """Every curve at every pressure, on threads; the slow ones begin first."""
+    with ThreadPoolExecutor(threads or threads_here()) as pool:
+        futures = {
+            (curve.name, k): pool.submit(critical_durations, curve, pressure, guess(pressure), tolerance, scan)
+            for curve in curves
+            for k, pressure in enumerate(pressures)
+        }
+        return {curve.name: [futures[curve.name, k].result() for k in range(len(pressures))] for curve in curves}
+
+
+def boundary_table(traced: Mapping[str, Sequence[Point]], pressures: Sequence[float]) -> Table:
+    """A table: pressure, then a column for each curve and criterion, s."""
+    columns = [Column("pressure", "Pa", "peak of the pulse", [float(p) for p in pressures])]
+    for name, points in traced.items():
+        for criterion in points[0].durations:
+            values = [point.durations[criterion] for point in points]
+            text = f"critical duration, {name}, {criterion.replace('_', ' ')}"
+            columns.append(Column(f"{name} {criterion}", "s", text, values))
+    return Table(columns)

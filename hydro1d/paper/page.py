@@ -1,0 +1,64 @@
+"""index.html: every figure and number on one self-contained page."""
+
+from __future__ import annotations
+
+import base64
+import html
+import math
+
+from hydro1d.paper.workshop import Number, Workshop
+
+_STYLE = """
+body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}
+h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2.2em;border-top:1px solid #ddd;padding-top:.8em}
+img{max-width:100%}table{border-collapse:collapse;font-size:13px;margin:.6em 0;width:100%}
+th,td{border-bottom:1px solid #e4e4e4;padding:.25em .6em;text-align:left;vertical-align:top}
+td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}th.n{text-align:right}
+.note{color:#666}p.caption{color:#444}
+"""
+_OF_FIGURE = {
+    "fig01": "1", "fig03": "3", "fig05": "5", "fig06": "6", "fig08": "8", "fig09": "9", "fig11a": "11a", "fig11b": "11b",
+    "fig12": "12", "new1_support_stress": "new 1", "new2_peak_map": "new 2", "new3_energy": "new 3", "new4_studies": "new 4",
+}  # fmt: skip
+
+
+def write_page(work: Workshop, seconds: float) -> None:
+    """Write index.html into the workshop's folder."""
+    parts = [
+        "<!doctype html><html lang='en'><meta charset='utf-8'><title>The correct analysis of shocks, reproduced</title>",
+        f"<style>{_STYLE}</style>",
+        "<h1>The correct analysis of shocks in a cellular material, reproduced</h1>",
+        "<p>Harrigan, Reid &amp; Seyed Yaghoubi, Int. J. Impact Engineering 37 (2010) 918–927, "
+        "<a href='https://doi.org/10.1016/j.ijimpeng.2009.03.011'>doi:10.1016/j.ijimpeng.2009.03.011</a>. "
+        "Each table puts side by side what the paper prints, what its equations give, and what the solver gives; the "
+        "difference is the solver's from the equations, or, where there is no solver, the equations' from the paper.</p>",
+        f"<p class='note'>Made in {seconds:.0f} s. The data of every figure lie beside this page as CSV, runs and tables as HDF5.</p>",
+    ]
+    for picture in work.pictures:
+        image = base64.b64encode((work.folder / f"{picture.name}.png").read_bytes()).decode()
+        parts += [
+            f"<h2 id='{picture.name}'>{html.escape(picture.title)}</h2>",
+            f"<img alt='{html.escape(picture.title)}' src='data:image/png;base64,{image}'>",
+            f"<p class='caption'>{html.escape(picture.caption)}</p>",
+            _table([item for item in work.numbers if item.figure == _OF_FIGURE.get(picture.name)]),
+        ]
+    (work.folder / "index.html").write_text("\n".join(parts) + "\n</html>\n", encoding="utf-8")
+
+
+def _table(numbers: list[Number]) -> str:
+    if not numbers:
+        return ""
+    head = "<tr><th>quantity</th><th class='n'>paper</th><th class='n'>equations</th><th class='n'>solver</th><th>unit</th>"
+    rows = [f"<table>{head}<th class='n'>difference</th><th>note</th></tr>"]
+    for item in numbers:
+        cells = "".join(f"<td class='n'>{_figure(x)}</td>" for x in (item.paper, item.equations, item.solver))
+        change = "" if math.isnan(item.difference) else f"{100 * item.difference:+.3g} %"
+        rows.append(
+            f"<tr><td>{html.escape(item.quantity)}</td>{cells}<td>{html.escape(item.unit if item.unit != '1' else '')}</td>"
+            f"<td class='n'>{change}</td><td class='note'>{html.escape(item.note)}</td></tr>"
+        )
+    return "\n".join(rows) + "</table>"
+
+
+def _figure(value: float) -> str:
+    return "" if math.isnan(value) else f"{value:.5g}"

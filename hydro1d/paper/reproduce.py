@@ -1,0 +1,45 @@
+"""All of it, in the order of the paper."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from hydro1d.paper import beyond, boundaries, curves, masses, pulses, strikers
+from hydro1d.paper.page import write_page
+from hydro1d.paper.studies import studies
+from hydro1d.paper.workshop import QUICK, Size, Workshop
+
+PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
+    ("1", curves.figure_1),
+    ("3", strikers.figure_3),
+    ("5", boundaries.figure_5),
+    ("6", boundaries.figure_6),
+    ("8, 9", curves.figures_8_9),
+    ("11a", pulses.figure_11a),
+    ("11b", pulses.figure_11b),
+    ("12", masses.figure_12),
+    ("support", beyond.support_histories),
+    ("map", beyond.peak_map),
+    ("energy", beyond.energy_shares),
+    ("studies", studies),
+)
+
+
+def reproduce(
+    folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), threads: int | None = None,
+    say: Callable[[str], None] = print,
+) -> Path:  # fmt: skip
+    """Make every figure and number of the paper in ``folder``; returns the page that shows them.
+
+    ``quick``: coarser and fewer points, the same figures but for the studies; ``only``: names of `PARTS`.
+    """
+    begun = time.perf_counter()
+    work = Workshop(Path(folder), QUICK if quick else Size(), threads, say)
+    for name, part in PARTS:
+        if (not only and (work.size.studies or part is not studies)) or name in only:
+            work.timed(name, part)
+    work.write_numbers()
+    write_page(work, time.perf_counter() - begun)
+    return work.folder / "index.html"
