@@ -43,7 +43,7 @@ nb_execution_in_temp = True
 nb_execution_timeout = 180
 nb_merge_streams = True
 
-os.environ["COLUMNS"] = "100"  # the width of the help texts
+os.environ["COLUMNS"] = "88"  # the width of the help texts
 
 
 def drop_missing_pages(app, docname, source):

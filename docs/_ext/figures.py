@@ -67,8 +67,8 @@ def law(name: str, top: float | None = None, back: float = 0.55) -> None:
     for strain, text in ((made.crushed_strain, "εD"),):
         if 0.0 < strain < 1.0:
             ax.axvline(strain, color=GREY, linewidth=0.8, linestyle=":")
-            ax.annotate(text, (strain, 0.97), xycoords=("data", "axes fraction"), xytext=(3, 0), textcoords="offset points",
-                        va="top", color=GREY)  # fmt: skip
+            ax.annotate(text, (strain, 0.04), xycoords=("data", "axes fraction"), xytext=(-3, 0), textcoords="offset points",
+                        ha="right", color=GREY)  # fmt: skip
     ax.set(xlabel="strain ε", ylabel="stress σ (MPa)", xlim=(0.0, None), ylim=(0.0, None))
     ax.legend(frameon=False)
 

@@ -1,6 +1,7 @@
 """Directives that read the program itself, so that the reference cannot fall behind it.
 
-``{keys} law epph`` the keys of a law, boundary, pulse or section of a deck: unit, range, default, from the models.
+``{keys} law epph`` the keys of a law, boundary, pulse or section of a deck: unit, range, default, from the models;
+``{keys} foam shared`` those that foams share.
 ``{command} run`` the help of a subcommand; ``{commands}`` the table of all.
 ``{quantities} history`` what a result holds, from the writer's own list.
 ``{units}`` the units that a deck may use.
@@ -44,6 +45,10 @@ def component(kind: str, name: str) -> type:
     from hydro1d.plugins import find
     from hydro1d.viscosity import Viscosity
 
+    if kind == "foam":
+        from hydro1d import Foam
+
+        return Foam
     if kind == "section":
         return Viscosity if name == "viscosity" else getattr(model, SECTIONS[name])
     return find(kind, name)
@@ -95,8 +100,13 @@ class Keys(MarkdownDirective):
 
     def markdown(self) -> Iterable[str]:
         """The table, without the keys named after the component."""
+        from hydro1d import Foam
+
         kind, name, *without = self.arguments
-        rows = key_rows(component(kind, name), without)
+        cls = component(kind, name)
+        if kind == "law" and issubclass(cls, Foam):  # what foams share has a table of its own
+            without += [key for key in Foam.model_fields if key != "density"]
+        rows = key_rows(cls, without)
         return table(("key", "meaning", "value", "default"), rows) if rows else ["No keys.", ""]
 
 
