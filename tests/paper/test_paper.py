@@ -1,0 +1,97 @@
+"""Figures and numbers of the paper: what does not take long is tried; the whole is `hydro1d reproduce`."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hydro1d
+from hydro1d.cli import main
+from hydro1d.paper import foam, pulses
+from hydro1d.paper.boundary import trace_curves
+from hydro1d.paper.boundaries import REVERSIBLE, chain, foam_curve
+from hydro1d.paper.chain import equal_masses, potential, spring
+from hydro1d.paper.masses import _potential_error
+from hydro1d.paper.workshop import deck_path
+
+CASES = Path(hydro1d.__file__).parent.parent / "cases"
+
+
+@pytest.mark.parametrize("deck", sorted(path.name for path in (CASES / "paper").glob("*.toml")))
+def test_decks_of_the_paper_are_in_order(deck):
+    assert hydro1d.load_deck(deck_path(deck)).title
+
+
+def test_ten_masses_conserve_energy():
+    run = hydro1d.run(CASES / "mass_spring_li_meng.toml")
+    assert np.max(np.abs(run.history["energy_error"])) < 1e-10
+    assert _potential_error(run) < 1e-5  # leapfrog is of second order; the sum above is exact at any step
+
+
+def test_ten_equal_masses_follow_until_they_collide():
+    """The half mass at the loaded end matters there, and not ahead of the compaction wave."""
+    run = hydro1d.run(hydro1d.load_deck(CASES / "mass_spring_li_meng.toml", ["time.end=1.5e-3", "output.profiles=2"]))
+    own = equal_masses(10, foam.PRESSURE, 1.0 / foam.RATE, 1.5e-3, 5.0, 0.8)
+    assert own.energy_error < 1e-7
+    assert np.allclose(own.position[-1][6:], run["position"][-1][6:], atol=2e-3)
+
+
+def test_potential_is_the_integral_of_the_spring():
+    strain = np.linspace(0.0, 0.95, 20001)
+    area = np.sum(0.5 * (spring(strain, 1.22, 0.603)[1:] + spring(strain, 1.22, 0.603)[:-1]) * np.diff(strain))
+    assert potential(strain, 1.22, 0.603)[-1] - potential(strain, 1.22, 0.603)[0] == pytest.approx(area, rel=1e-6)
+
+
+def test_eq30_is_the_rigid_limit_of_the_solver():
+    soft, stiff = 625.0, 2500.0
+    curves = [
+        foam_curve(f"{k}", "pulse_rppl.toml", 50, f"material.foam.stiffness={k}", bracket=(0.85, 1.12), criteria=("fully_crushed",))
+        for k in (soft, stiff)
+    ]
+    traced = trace_curves(curves, [3.6e6], foam.eq30, 2e-3, scan=2)
+    low, high = (traced[f"{k}"][0].durations["fully_crushed"] / foam.eq30(3.6e6) for k in (soft, stiff))
+    assert low < high < 1.0
+    assert 2.0 * high - low == pytest.approx(1.0, abs=0.01)
+
+
+def test_chain_and_continuum_disagree():
+    curves = [chain("chain", 10, *REVERSIBLE), foam_curve("foam", "pulse_tangent.toml", 50)]
+    traced = trace_curves(curves, [2.4e6], foam.eq30, 1e-2)
+    for criterion, low, high in (("fully_crushed", 0.78, 0.83), ("enhanced", 0.88, 0.98)):
+        assert 0.36 < traced["chain"][0].durations[criterion] / foam.eq30(2.4e6) < 0.44
+        assert low < traced["foam"][0].durations[criterion] / foam.eq30(2.4e6) < high
+
+
+def test_the_printed_numbers_come_out_of_the_slip():
+    end, left = pulses.printed_variant()
+    assert end == pytest.approx(6.13e-3, abs=0.01e-3)
+    assert left == pytest.approx(0.081, abs=0.002)
+
+
+def test_fit_of_eq38():
+    beta, gamma, residual = foam.fit_tangent(np.linspace(10.0, 250.0, 25))
+    assert residual == pytest.approx(0.011, abs=0.001)
+    assert foam.misfit(np.linspace(10.0, 250.0, 25), foam.BETA, foam.GAMMA) < 0.012
+
+
+def test_reproduce_one_figure(tmp_path):
+    assert main(["reproduce", "--quick", "--only", "1", "--only", "11a", "--out", str(tmp_path), "--quiet"]) == 0
+    for name in ("fig01.png", "fig01.svg", "fig01.csv", "fig11a.png", "numbers.csv", "index.html"):
+        assert (tmp_path / name).stat().st_size > 0
+    rows = list(csv.DictReader((tmp_path / "numbers.csv").open()))
+    assert list(rows[0])[:5] == ["figure", "quantity", "paper", "equations", "solver"]
+    page = (tmp_path / "index.html").read_text()
+    assert "data:image/png;base64" in page
+    assert "src='http" not in page
+
+
+def test_reproduce_says_what_there_is(tmp_path, capsys):
+    assert main(["reproduce", "--only", "2", "--out", str(tmp_path)]) == 2
+    assert "there is no such part" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_reproduce_quick(tmp_path):
+    assert main(["reproduce", "--quick", "--out", str(tmp_path), "--quiet"]) == 0
+    assert len(list(tmp_path.glob("*.png"))) == 11
