@@ -2,8 +2,9 @@
 """Hold the compaction front of any hydro1d result against the jump conditions.
 
 Eqs. 22 and 31-37 of doi:10.1016/j.ijimpeng.2009.03.011. States on either side are read off the profiles, the front's
-speed from its positions at neighbouring profiles. Shown are relative differences of the two sides of: mass [v] = c [strain] (31, 35), momentum [stress] = rho0 c [v] (32, 36),
-[stress] [strain] = rho0 [v]^2 (37), energy rho0 [e] = (stressA + stressB) [strain]/2 (22). c is Lagrangian.
+speed from its positions at neighbouring profiles. Shown are relative differences of the two sides of
+mass [v] = c [strain] (31, 35), momentum [stress] = rho0 c [v] (32, 36), [stress] [strain] = rho0 [v]^2 (37),
+energy rho0 [e] = (stressA + stressB) [strain]/2 (22). c is Lagrangian.
 A front that is still forming, decaying or meeting another one does not satisfy them at once.
 """
 

@@ -17,7 +17,7 @@ INTERVAL = 1.0  # s of wall time between two messages of progress
 
 
 class JsonLog:
-    """Writes {"event": "start" | "progress" | "done" | "error", …}, values in SI, to a file or ("-") standard output."""
+    """Writes {"event": "start" | "progress" | "done" | "error", …}, values in SI, to a file or (-) standard output."""
 
     def __init__(self, target: Path) -> None:
         from hydro1d.errors import FileProblem
@@ -25,9 +25,10 @@ class JsonLog:
         self._began = self._last = time.monotonic()
         self.on_standard_output = str(target) == "-"
         try:
-            self._stream: TextIO = sys.stdout if self.on_standard_output else open(target, "w", encoding="utf-8")  # noqa: SIM115
+            file = None if self.on_standard_output else open(target, "w", encoding="utf-8")  # noqa: SIM115
         except OSError as error:
             raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
+        self._stream: TextIO = sys.stdout if file is None else file
 
     def write(self, event: str, **values: Any) -> None:
         """One line, at once readable by whoever follows the file."""

@@ -40,7 +40,7 @@ def read_curve(path: str | os.PathLike[str], largest_strain: float = 1.0) -> Mea
 
 def checked(strain: np.ndarray, stress: np.ndarray, largest_strain: float = 1.0) -> MeasuredCurve:
     """The curve, if it can be fitted. Raises DeckError in one sentence."""
-    kept = strain <= largest_strain
+    kept = strain <= (largest_strain if largest_strain < 1.0 else np.inf)
     strain, stress = np.asarray(strain, dtype=float)[kept], np.asarray(stress, dtype=float)[kept]
     if len(strain) < 10:
         raise DeckError(f"the curve has {len(strain)} points up to strain {largest_strain:g}; a fit needs 10 at least")

@@ -68,7 +68,7 @@ def draw_history(axes: Axes, run: Run, names: Sequence[str], label: str) -> None
     _clip(axes, [values / scale.size for _, _, values in curves])
     axes.set_ylabel(scale.label(label))
     axes.margins(x=0.01)
-    legend(axes, ncols=2)
+    legend(axes, ncols=4, loc="lower left", bbox_to_anchor=(0.0, 0.98), borderaxespad=0.0)
 
 
 def extremes(time: np.ndarray, values: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:

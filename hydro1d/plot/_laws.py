@@ -103,7 +103,7 @@ def _draw_hugoniot(axes: Axes, law: Law, shock: Hugoniot) -> None:
     axes.set_ylim(0.0, 1.0)
     other = axes.twinx()
     other.plot(shock.velocity_jump, shock.front_speed, color=PALETTE[1], linestyle="--", label="front speed, right")
-    wave = float(np.sqrt(law.loading(0.0)[1] / law.density))  # type: ignore[attr-defined]
+    wave = float(np.sqrt(curve(law, np.zeros(1))[1][0] / law.density))
     if wave < 3.0 * float(shock.front_speed.max()):
         other.axhline(wave, color=GREY, linestyle=":", linewidth=1.0, label="elastic wave, right")
     other.set_ylim(bottom=0.0)

@@ -37,7 +37,12 @@ def deck_of(run: Run, deck: Deck | str | Path | None = None) -> Deck | None:
 
 def loads_by_strain(law: Law) -> bool:
     """Whether the law is a curve of the strain: gases and laws that need energy or rate are not."""
-    return callable(getattr(law, "loading", None))
+    if callable(getattr(law, "loading", None)):
+        return True
+    history = tuple(type(law).history.values())
+    energy = law.initial_energy + 1e3
+    answers = [law.point(0.01, 0.01, rate, heat, history)[0] for rate, heat in ((0.0, 0.0), (1e3, 0.0), (0.0, energy))]
+    return answers[0] == answers[1] == answers[2]
 
 
 class Hugoniot(NamedTuple):
@@ -57,7 +62,11 @@ class Hugoniot(NamedTuple):
 
 def curve(law: Law, strains: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Loading stress and tangent (Pa) at strains."""
-    answers = np.array([law.loading(float(strain)) for strain in strains])  # type: ignore[attr-defined]
+    if callable(getattr(law, "loading", None)):
+        answers = np.array([law.loading(float(strain)) for strain in strains])  # type: ignore[attr-defined]
+    else:
+        history = tuple(type(law).history.values())
+        answers = np.array([law.point(float(strain), float(strain), 0.0, 0.0, history)[:2] for strain in strains])
     return answers[:, 0], answers[:, 1]
 
 
@@ -76,14 +85,15 @@ def top_strain(law: Law, ratio: float = 12.0) -> float:
 
 def hugoniot_of(law: Law, top: float) -> Hugoniot:
     """States behind single shocks from yield (Eqs. 35, 37) for the strains where the chord stays above the curve."""
-    start = float(getattr(law, "yield_strain", 0.0))
+    start = float(getattr(law, "yield_strain", np.inf))
     strain = strain_grid(law, top, 1200)
     stress, _ = curve(law, strain)
-    yielded = float(np.interp(start, strain, stress))
     keep = strain > start
+    yielded = float(np.interp(start, strain, stress)) if keep.any() else np.inf
     energy = np.concatenate([[0.0], np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(strain))])
     spent = energy - np.interp(start, strain, energy)
-    chord = np.divide(stress - yielded, strain - start, out=np.full(len(strain), -np.inf), where=keep)
+    chord = np.full(len(strain), -np.inf)
+    chord[keep] = (stress[keep] - yielded) / (strain[keep] - start)
     steepest = np.maximum.accumulate(np.where(keep, chord, -np.inf))
     keep &= (chord >= steepest * (1.0 - 1e-9)) & (stress > yielded * (1.0 + 1e-9))
     rise, change = (stress - yielded)[keep], (strain - start)[keep]

@@ -1,0 +1,151 @@
+"""hydro1d plot, new, completion, run --log-json: names, defaults, messages, exit codes."""
+
+import json
+import shutil
+import subprocess
+
+import h5py
+import pytest
+
+from hydro1d.cli import main
+from hydro1d.cli.new import CASES
+from hydro1d.deck import load_deck
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_plot_without_options(result, here, capsys):
+    assert main(["plot", str(result), "--dpi", "40"]) == 0
+    assert capsys.readouterr().out == "coarse-overview.png\n"
+    assert (here / "coarse-overview.png").exists()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["profiles", "-t", "1 ms,2 ms", "-q", "strain", "--frame", "laboratory"],
+        ["xt", "-q", "density", "--format", "svg"],
+        ["history", "-q", "right_stress,probes/strain"],
+        ["hugoniot", "--zone", "10", "--format", "pdf"],
+        ["animate", "--frames", "3"],
+        ["compare", "-t", "0.002"],
+    ],
+)
+def test_plot_kinds(result, here, capsys, options):
+    assert main(["plot", str(result), *options, "--dpi", "40"]) == 0
+    assert (here / capsys.readouterr().out.strip()).stat().st_size > 1000
+
+
+def test_several_runs_are_compared(result, here, capsys):
+    shutil.copy(result, "b.h5")
+    assert main(["plot", str(result), "b.h5", "-o", "c.png", "--dpi", "40"]) == 0
+    assert (here / "c.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "message"),
+    [
+        (["none.h5"], 4, "none.h5"),
+        (["{}", "profile"], 2, "did you mean profiles"),
+        (["{}", "xt", "history"], 2, "one kind"),
+        (["xt"], 2, "name a result"),
+        (["{}", "{}", "xt"], 2, "compare draws several"),
+        (["{}", "xt", "-q", "sterss"], 4, "it has position"),
+        (["{}", "xt", "-q", "stress,strain"], 2, "takes one --quantity"),
+        (["{}", "profiles", "-t", "2 s"], 4, "profiles from"),
+        (["{}", "profiles", "-t", "2 bananas"], 2, "--time"),
+        (["{}", "-o", "a.bmp"], 2, ".svg"),
+        (["{}", "history", "-q", "nothing"], 4, "There is"),
+    ],
+)
+def test_plot_says_what_is_wrong(result, here, capsys, words, code, message):
+    assert main(["plot", *[word.format(result) for word in words]]) == code
+    err = capsys.readouterr().err
+    assert message in err and "Traceback" not in err and err.startswith("hydro1d: ")
+
+
+def damage(kind, result, path):
+    """A file with one thing wrong."""
+    data = result.read_bytes()
+    if kind == "text":
+        path.write_text("just words")
+    elif kind == "empty":
+        path.write_bytes(b"")
+    elif kind == "truncated":
+        path.write_bytes(data[: len(data) // 2])
+    elif kind == "not ours":
+        with h5py.File(path, "w") as file:
+            file["a"] = [1.0]
+    elif kind == "newer":
+        path.write_bytes(data)
+        with h5py.File(path, "r+") as file:
+            file.attrs["schema_version"] = 99
+    elif kind == "flipped":
+        path.write_bytes(data[:-20_000] + bytes(byte ^ 255 for byte in data[-20_000:]))
+
+
+@pytest.mark.parametrize("kind", ["text", "empty", "truncated", "not ours", "newer", "flipped"])
+@pytest.mark.parametrize("command", ["plot", "report"])
+def test_bad_files_are_one_message(result, here, capsys, kind, command):
+    path = here / "bad.h5"
+    damage(kind, result, path)
+    assert main([command, str(path)]) == 4
+    captured = capsys.readouterr()
+    assert captured.err.startswith("hydro1d: ") and "bad.h5" in captured.err and "Traceback" not in captured.err
+    assert len(captured.err.splitlines()) <= 3
+    assert not list(here.glob("*.png")) and not list(here.glob("*.html"))
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_new_writes_decks_that_load(case, here, capsys):
+    assert main(["new", case, "-o", "mine.toml"]) == 0
+    out = capsys.readouterr().out
+    assert "mine.toml" in out and "hydro1d run mine.toml" in out
+    deck = load_deck("mine.toml")
+    assert deck.title and "#" in deck.text and "{name}" not in deck.text
+    assert main(["new", case, "-o", "mine.toml"]) == 4
+    assert "already" in capsys.readouterr().err
+
+
+def test_new_lists_and_suggests(here, capsys):
+    assert main(["new"]) == 0
+    listed = capsys.readouterr().out
+    assert all(case in listed for case in CASES)
+    assert main(["new", "strikr"]) == 2
+    assert "did you mean striker" in capsys.readouterr().err
+    assert main(["new", "pulse", "-o", "a.txt"]) == 2
+    assert not list(here.iterdir())
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_knows_commands_and_options(shell, capsys):
+    assert main(["completion", shell]) == 0
+    script = capsys.readouterr().out
+    for word in ("plot", "report", "hugoniot", "striker", "quiet" if shell == "fish" else "--quiet"):
+        assert word in script
+
+
+def test_bash_completion_works(capsys, here):
+    main(["completion", "bash"])
+    (here / "c.sh").write_text(capsys.readouterr().out)
+    lines = "source c.sh; COMP_WORDS=(hydro1d plot hug); COMP_CWORD=2; _hydro1d; echo ${COMPREPLY[@]}"
+    done = subprocess.run(["bash", "-c", lines], capture_output=True, text=True)
+    assert done.stdout.split() == ["hugoniot"]
+
+
+def test_log_json(here, capsys):
+    main(["new", "piston"])
+    capsys.readouterr()
+    small = ["--set", "layer[0].zones=20", "--set", "output.profiles=3"]
+    assert main(["run", "piston.toml", *small, "--log-json", "log.json"]) == 0
+    assert "result: piston.h5" in capsys.readouterr().out
+    events = [json.loads(line) for line in (here / "log.json").read_text().splitlines()]
+    assert [events[0]["event"], events[-1]["event"]] == ["start", "done"]
+    assert events[-1]["status"] == "complete" and events[-1]["cycles"] > 10 and events[0]["zones"] == 20
+    assert main(["run", "piston.toml", *small, "--log-json", "-"]) == 0
+    assert all(json.loads(line)["event"] for line in capsys.readouterr().out.splitlines())
+    assert main(["run", "piston.toml", *small, "--log-json", "no/log.json"]) == 4

@@ -1,0 +1,183 @@
+"""Figures: what functions return, what they say when they cannot draw."""
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from synthetic import END, LENGTH, made_run
+
+from hydro1d import plot
+from hydro1d.errors import DeckError, FileProblem, Hydro1dError
+from hydro1d.laws.elastic import Elastic
+from hydro1d.laws.epph import EPPH
+from hydro1d.laws.ideal_gas import IdealGas
+from hydro1d.plot._frames import front_path, in_laboratory
+from hydro1d.plot._histories import extremes
+from hydro1d.plot._hugoniot import crossings
+from hydro1d.plot._materials import deck_of, hugoniot_of
+from hydro1d.plot._units import scale_for
+
+FOAM = EPPH(density=51.6, modulus=22e6, plateau_stress=0.8e6, densification_strain=0.689, shock_slope=0.00105)
+
+
+@pytest.mark.parametrize("kind", ["profiles", "xt", "history", "hugoniot", "overview"])
+def test_every_kind_returns_figure_and_axes(kind):
+    figure, axes = getattr(plot, kind)(made_run())
+    assert isinstance(figure, Figure)
+    for one in np.ravel(np.asarray(axes, dtype=object)):
+        assert one.figure is figure
+        assert one.get_xlabel() or one.get_ylabel()
+    assert any(unit in one.get_ylabel() + one.get_xlabel() for unit in ("(MPa)", "(mm)", "(ms)") for one in figure.axes)
+
+
+def test_no_pyplot_and_no_global_state():
+    import sys
+
+    before = dict(matplotlib.rcParams)
+    plot.xt(made_run())
+    assert dict(matplotlib.rcParams) == before
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    assert pyplot is None or not pyplot.get_fignums()
+
+
+@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
+def test_formats(tmp_path, ending):
+    figure, _ = plot.hugoniot(made_run())
+    first = plot.save(figure, tmp_path / f"a.{ending}").read_bytes()
+    assert first.startswith({"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[ending])
+    if ending != "pdf":
+        assert plot.save(plot.hugoniot(made_run())[0], tmp_path / f"b.{ending}").read_bytes() == first
+
+
+def test_save_refuses_what_it_cannot_write(tmp_path):
+    figure, _ = plot.xt(made_run())
+    with pytest.raises(DeckError, match=r"\.png, \.svg, \.pdf"):
+        plot.save(figure, tmp_path / "a.bmp")
+    with pytest.raises(FileProblem, match="cannot write"):
+        plot.save(figure, tmp_path / "missing" / "a.png")
+
+
+def test_units_are_those_people_use_unless_unreadable():
+    assert scale_for("Pa", [3.6e6]).unit == "MPa"
+    assert scale_for("Pa", [1.0]).unit == "Pa"
+    assert scale_for("s", 0.03).unit == "ms"
+    assert scale_for("m", [0.0, np.nan, 1.0]).unit == "mm"
+    assert scale_for("m s-1", 240.0).label("velocity v") == "velocity v (m/s)"
+    assert scale_for("1").label("strain ε") == "strain ε"
+    assert scale_for("furlong").unit == "furlong"
+
+
+def test_fronts_and_mesh_lie_where_the_run_has_them():
+    _, axes = plot.xt(made_run())
+    front = next(line for line in axes.get_lines() if line.get_label() == "proximal front")
+    x, t = front.get_data()
+    known = np.isfinite(x)
+    assert np.allclose(x[known], 200.0 * t[known])  # mm and ms
+    assert axes.get_ylim() == (0.0, 1e3 * END)
+
+
+def test_laboratory_positions_follow_the_material():
+    run = made_run()
+    where = np.array([0.5, np.nan])
+    found = in_laboratory(run, np.array([END, END]), where)
+    assert found[0] == pytest.approx(np.interp(0.5, run["node_coordinate"], run["position"][-1]))
+    assert np.isnan(found[1])
+
+
+def test_a_leaping_front_is_cut_off():
+    run = made_run()
+    path = run.history["front_position"].copy()
+    path[-20:] = [0.1 + 0.04 * (k % 2) for k in range(20)]
+    run.history._arrays["front_position"] = path
+    assert np.isnan(front_path(run, "front_position")[-18:]).all()
+
+
+def test_states_in_the_front_lie_between_its_ends():
+    found = crossings(made_run())
+    assert found
+    for crossing in found:
+        assert crossing.behind[0] > 0.85 > crossing.ahead[0]
+
+
+def test_extremes_keep_peaks():
+    time = np.linspace(0.0, 1.0, 50_000)
+    values = np.sin(time)
+    values[12_345], values[33_333] = 99.0, -99.0
+    x, y = extremes(time, values, 1000)
+    assert len(x) <= 1100 and y.max() == 99.0 and y.min() == -99.0
+
+
+def test_partial_run_is_drawn_and_named_so():
+    figure, _ = plot.profiles(made_run(status="running"))
+    assert "partial" in figure._suptitle.get_text()
+
+
+@pytest.mark.parametrize(
+    ("call", "options", "message"),
+    [
+        (lambda run: plot.xt(run, "sterss"), {}, "no profiles of 'sterss'; it has"),
+        (lambda run: plot.profiles(run, times=[1.0]), {}, "not at 1000 ms"),
+        (lambda run: plot.history(run, ["right_sterss"]), {}, "right_stress"),
+        (lambda run: plot.history(run, ["probes/stress"]), {"drop": ("probes",)}, "has no probes"),
+        (lambda run: plot.history(run), {"drop": ("history",)}, "holds no history"),
+        (lambda run: plot.profiles(run), {"times": 0}, "holds no profile"),
+        (lambda run: plot.xt(run), {"times": 1}, "only 1 profile"),
+    ],
+)
+def test_what_is_not_there_is_said(call, options, message):
+    with pytest.raises(FileProblem, match=message):
+        call(made_run(**options))
+
+
+def test_wrong_arguments_are_said():
+    with pytest.raises(DeckError, match="lagrangian, laboratory"):
+        plot.xt(made_run(), frame="moon")
+    with pytest.raises(DeckError, match="from 0 to 79"):
+        plot.hugoniot(made_run(), zones=[80])
+    with pytest.raises(DeckError, match="no run"):
+        plot.compare([])
+
+
+def test_a_run_with_code_of_its_user_draws_without_running_it():
+    deck = {**made_run().deck, "material": {"foam": {"law": "evil.py:Law"}}}
+    run = made_run(deck=deck)
+    assert deck_of(run) is None
+    plot.hugoniot(run)
+
+
+def test_gif_moves(tmp_path):
+    from PIL import Image
+
+    with Image.open(plot.animate(made_run(), tmp_path / "a.gif", frames=4, dpi=40)) as film:
+        assert film.n_frames == 4
+
+
+def test_film_endings(tmp_path, monkeypatch):
+    with pytest.raises(DeckError, match=r"\.gif or \.mp4"):
+        plot.animate(made_run(), tmp_path / "a.avi")
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    with pytest.raises(Hydro1dError, match="ffmpeg"):
+        plot.animate(made_run(), tmp_path / "a.mp4")
+
+
+def test_hugoniot_of_a_law_is_the_theory():
+    from hydro1d import analytic
+
+    shock = hugoniot_of(FOAM, 0.95)
+    curve = analytic.EPPH(51.6, 22e6, 0.8e6, 0.689, 0.00105)
+    exact = analytic.compaction_hugoniot(curve, shock.velocity_jump[[300, -1]])
+    assert np.allclose(exact.strain, shock.strain[[300, -1]], rtol=1e-6)
+    assert np.allclose(exact.front_speed, shock.front_speed[[300, -1]], rtol=1e-6)
+    assert (shock.shock_energy >= shock.curve_energy * (1 - 1e-9)).all()
+
+
+def test_laws_without_a_shock_or_a_curve():
+    figure, _ = plot.law(Elastic(density=1.0, modulus=1e6), "elastic")
+    assert isinstance(figure, Figure)
+    with pytest.raises(DeckError, match="no loading curve"):
+        plot.law(IdealGas(density=1.0, gamma=1.4, pressure=1e5), "gas")
+
+
+def test_a_notebook_shows_the_figure():
+    assert plot.xt(made_run())[0]._repr_png_().startswith(b"\x89PNG")
+    assert LENGTH == 1.0
