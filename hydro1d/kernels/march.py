@@ -39,6 +39,7 @@ SCRATCH = zone_places.RESULTS  # where `out` goes on after the answers of a kern
 OUT = SCRATCH + end_places.MEMORY
 WINDOW = 12  # zones on either side of a front that its integral measure takes in
 GROWTH = 1.1  # most by which a step exceeds the one before
+SMALLEST = 1e-4  # of the first step: below, a zone has been crushed to a nothing that would take for ever to follow
 
 
 def march(
@@ -206,7 +207,7 @@ def close_step(ledger: Any, force: Any, zones: int, step: float, stable: float, 
         return INVERTED
     if not 0.0 < stable < math.inf:
         return NOT_FINITE
-    if ledger[NEXT_STEP] < 1e-6 * ledger[FIRST_STEP] or ledger[TIME] + ledger[NEXT_STEP] == ledger[TIME]:
+    if ledger[NEXT_STEP] < SMALLEST * ledger[FIRST_STEP] or ledger[TIME] + ledger[NEXT_STEP] == ledger[TIME]:
         return COLLAPSED
     return REACHED if ledger[TIME] >= ledger[STOP] else PAUSED
 

@@ -30,7 +30,7 @@ class Table(Foam):
             raise ValueError("curve must have strains rising from 0 or above to below 1")
         if not ((np.diff(points[:, 1]) >= 0).all() and points[0, 1] >= 0.0 and points[-1, 1] > 0.0):
             raise ValueError("curve must have stresses that do not fall, from 0 or above")
-        if self.modulus * points[-1, 0] <= points[-1, 1]:
+        if not (self.modulus * points[:, 0] > points[:, 1]).any():
             raise ValueError("curve never falls below the elastic line; the modulus is too small for it")
         self.corners  # noqa: B018 (its own check, before anything is computed)
         return self
@@ -53,7 +53,7 @@ class Table(Foam):
         points = np.array(self.curve, dtype=float)
         if points[0, 0] == points[0, 1] == 0.0:
             points = points[1:]  # the origin lies on the elastic line already
-        below = np.flatnonzero(self.modulus * points[:, 0] >= points[:, 1])[0]  # the first on the line or right of it
+        below = np.flatnonzero(self.modulus * points[:, 0] >= points[:, 1])[0]  # first on the line or right of it
         segment = max(below - 1, 0)
         (strain, stress), (end, end_stress) = points[segment], points[min(segment + 1, len(points) - 1)]
         slope = (end_stress - stress) / (end - strain) if end > strain else 0.0

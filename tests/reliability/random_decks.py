@@ -56,7 +56,7 @@ def _law(rng: np.random.Generator) -> Table:
         {"law": "rppl", **rigid, "stiffness": float(10 ** rng.uniform(1.5, 3))},
         {"law": "rph", **foam, "plateau_stress": plateau, "hardening": plateau * float(rng.uniform(0.05, 0.5))},
         {"law": "eph", **foam, "yield_stress": plateau, "hardening_modulus": modulus * float(rng.uniform(0.01, 0.5))},
-        {"law": "table", **foam, "curve": [[plateau / modulus, plateau], [0.5, 1.2 * plateau], [0.7, 3 * plateau], [0.9, 30 * plateau]]},
+        {"law": "table", **foam, "curve": [[plateau / modulus, plateau], [0.5, 1.1 * plateau], [0.7, 3 * plateau], [0.9, 30 * plateau]]},
     ]  # fmt: skip
     return laws[int(rng.integers(len(laws)))]
 
@@ -75,7 +75,7 @@ def _speed(law: Table) -> float:
 
 
 def _boundary(rng: np.random.Generator, stress: float, end: float, sign: float) -> Table:
-    peak, share = float(stress * 10 ** rng.uniform(-1, 1)), float(end * rng.uniform(0.05, 0.9))
+    peak, share = float(stress * 10 ** rng.uniform(-1, 0.9)), float(end * rng.uniform(0.05, 0.9))
     speed = float(rng.uniform(1, 60))
     pulses: list[Table] = [
         {"pulse": "constant", "peak": peak},
