@@ -11,24 +11,30 @@ import numpy as np
 from hydro1d.verify.rows import Line, Panel
 
 EXACT, RUNS = "#222222", ("#1769aa", "#d1495b", "#3a7d44", "#8d6a9f", "#c98b1d", "#4f9da6")
+MOST_COLUMNS = 3
 MOST_POINTS = 700  # of a line: what a column of text can show
 
 
 def svg(panels: tuple[Panel, ...], prefix: str) -> str:
-    """All panels of a case side by side; ``prefix`` keeps the ids of several figures on one page apart."""
+    """All panels of a case, three abreast; ``prefix`` keeps the ids of several figures on one page apart."""
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
 
     style = {"svg.fonttype": "none", "svg.hashsalt": prefix, "font.family": "sans-serif", "font.size": 9.0, "axes.titlesize": 9.5}
+    columns = min(len(panels), MOST_COLUMNS)
+    rows = -(-len(panels) // columns)
     with matplotlib.rc_context(style):
-        figure = Figure(figsize=(4.6 * len(panels), 3.3), layout="constrained")
+        figure = Figure(figsize=(4.6 * columns, 3.3 * rows), layout="constrained")
         FigureCanvasSVG(figure)
-        for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
+        grid = np.atleast_1d(figure.subplots(rows, columns)).ravel()
+        for axes, panel in zip(grid, panels, strict=False):
             _draw(axes, panel)
+        for axes in grid[len(panels) :]:
+            axes.set_axis_off()
         out = io.StringIO()
         figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return _inline(out.getvalue(), prefix)
+    return _inline(out.getvalue(), prefix, 100 * columns // MOST_COLUMNS)
 
 
 def _draw(axes: Any, panel: Panel) -> None:
@@ -59,14 +65,14 @@ def _slope(axes: Any, panel: Panel) -> None:
     from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
     x = np.unique(np.concatenate([item.x for item in panel.lines]))
-    axes.xaxis.set_major_locator(FixedLocator(list(x)))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     lowest = min(float(np.min(np.maximum(np.abs(item.y), 1e-18))) for item in panel.lines)
     power = 1.0 if panel.x_label == "zones" else 0.5
     axes.loglog(x, 0.6 * lowest * (x[-1] / x) ** power, ":", color="#888888", linewidth=1.0)
     name = "order 1" if power == 1.0 else "order ½"
     axes.annotate(name, (x[0], 0.6 * lowest * (x[-1] / x[0]) ** power), color="#666666", fontsize=7.5, va="bottom")
+    axes.xaxis.set_major_locator(FixedLocator(list(x)))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def _thinned(item: Line) -> tuple[np.ndarray, np.ndarray]:
@@ -75,9 +81,9 @@ def _thinned(item: Line) -> tuple[np.ndarray, np.ndarray]:
     return item.x[::step], item.y[::step]
 
 
-def _inline(text: str, prefix: str) -> str:
+def _inline(text: str, prefix: str, percent: int) -> str:
     """The <svg> element alone, its ids made unique, as wide as its column allows."""
     body = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
     body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', body)
     body = re.sub(r'(xlink:href="#|url\(#)', rf"\g<1>{prefix}-", body)
-    return re.sub(r'(<svg\b[^>]*?) width="[^"]+"', r'\1 width="100%"', re.sub(r' height="[\d.]+pt"', "", body, count=1), count=1)
+    return re.sub(r'(<svg\b[^>]*?) width="[^"]+"', rf'\1 width="{percent}%"', re.sub(r' height="[\d.]+pt"', "", body, count=1), count=1)
