@@ -55,7 +55,12 @@ def run(args: argparse.Namespace) -> None:
     for path in filter(None, (args.output, boundary_file)):
         check_text_target(path)
     arguments = (args.deck, args.key, _value(args.low), _value(args.high), args.outcome)
-    options: dict[str, Any] = {"overrides": args.overrides, "tolerance": args.tolerance, "scan": args.scan, "spacing": args.spacing}
+    options: dict[str, Any] = {
+        "overrides": args.overrides,
+        "tolerance": args.tolerance,
+        "scan": args.scan,
+        "spacing": args.spacing,
+    }
     if args.along is None:
         from hydro1d.interrupt import interruptible
 

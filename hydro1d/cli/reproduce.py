@@ -11,8 +11,12 @@ HELP = "regenerate every figure and number of Harrigan, Reid & Seyed Yaghoubi 20
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d reproduce``."""
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("paper"), help="where to; default: paper")
-    parser.add_argument("--quick", action="store_true", help="coarser, fewer points, the same figures: under two minutes")
-    parser.add_argument("--only", metavar="FIGURE", action="append", default=[], help="one figure, for example 6; can be repeated")
+    parser.add_argument(
+        "--quick", action="store_true", help="coarser, fewer points, the same figures: under two minutes"
+    )
+    parser.add_argument(
+        "--only", metavar="FIGURE", action="append", default=[], help="one figure, for example 6; can be repeated"
+    )
     parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
     parser.add_argument("--quiet", action="store_true", help="do not say what is being made")
 

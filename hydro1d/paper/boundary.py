@@ -1,6 +1,6 @@
 """Boundaries in (duration, pressure): the duration at which a pulse just crushes the whole column, or is just enhanced.
 
-Both criteria are asked of the same runs. A run ends when nothing can happen any more: the load puts in the momentum P T,
+Both criteria are asked of the same runs. A run ends when nothing can happen any more: the load puts in momentum P T,
 a wall that bears at least σP takes it out by T P/σP after the first wave has reached it, L/c0; a quarter is added.
 """
 
@@ -24,7 +24,8 @@ LATER = 1.25  # end of a run over the time by which all momentum is gone
 
 @dataclass(frozen=True)
 class Curve:
-    """One boundary: its name, the deck's data with overrides, and the bracket as multiples of a first guess of T."""
+    """One boundary: its name, the deck's data with overrides, and the bracket as multiples of a first "
+    "guess of T."""
 
     name: str
     data: Mapping[str, Any]
@@ -81,9 +82,13 @@ def _job(curve: Curve, pressure: float, duration: float) -> Job:
 
 
 def trace_curves(
-    curves: Sequence[Curve], pressures: Sequence[float], guess: Callable[[float], float], tolerance: float,
-    threads: int | None = None, scan: int = 5,
-) -> dict[str, list[Point]]:  # fmt: skip
+    curves: Sequence[Curve],
+    pressures: Sequence[float],
+    guess: Callable[[float], float],
+    tolerance: float,
+    threads: int | None = None,
+    scan: int = 5,
+) -> dict[str, list[Point]]:
     """Every curve at every pressure, on threads; the slow ones begin first."""
     with ThreadPoolExecutor(threads or threads_here()) as pool:
         futures = {

@@ -1,4 +1,5 @@
-"""A chain of equal masses, on its own: against it the solver's chain, whose mass at the loaded end is half as heavy."""
+"""A chain of equal masses, on its own: against it the solver's chain, whose mass at the loaded end "
+"is half as heavy."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ from hydro1d.paper import foam
 
 
 class Trajectories(NamedTuple):
-    """Times (s), positions (times, masses) in m, the largest strain of each spring, the largest force on the support (Pa)."""
+    """Times (s), positions (times, masses) in m, largest strain of each spring, largest force on the support (Pa)."""
 
     time: np.ndarray
     position: np.ndarray
@@ -26,7 +27,9 @@ def spring(strain: np.ndarray, beta: float, gamma: float) -> np.ndarray:
     over = np.maximum(strain - foam.LOCKING, 0.0)
     start = (1.0 - gamma) * 0.5 * math.pi
     angle = start + gamma * 0.5 * math.pi * over / (1.0 - foam.LOCKING)
-    rise = np.where(over < 1.0 - foam.LOCKING, np.tan(angle), 1e30) - math.tan(start)  # a trial step beyond ε = 1 is undone
+    rise = np.where(over < 1.0 - foam.LOCKING, np.tan(angle), 1e30) - math.tan(
+        start
+    )  # a trial step beyond ε = 1 is undone
     return np.minimum(foam.MODULUS * strain, foam.PLATEAU) + foam.PLATEAU * beta * rise
 
 
@@ -40,10 +43,8 @@ def potential(strain: np.ndarray, beta: float, gamma: float) -> np.ndarray:
     return low + foam.PLATEAU * beta * (logarithm - math.tan(start) * over)
 
 
-def equal_masses(
-    count: int, pressure: float, duration: float, end: float, beta: float, gamma: float
-) -> Trajectories:
-    """``count`` equal masses and springs between the load and a rigid support, by an adaptive Runge-Kutta method of order 8."""
+def equal_masses(count: int, pressure: float, duration: float, end: float, beta: float, gamma: float) -> Trajectories:
+    """``count`` equal masses and springs between load and rigid support, by a Runge-Kutta method of order 8."""
     size, mass = foam.LENGTH / count, foam.DENSITY * foam.LENGTH / count
 
     def rates(t: float, state: np.ndarray, load: float) -> np.ndarray:
@@ -64,7 +65,9 @@ def equal_masses(
     time, state = np.concatenate(times), np.concatenate(states, axis=1)
     moved = np.vstack([state[:count], np.zeros(len(time))])
     strain = -np.diff(moved, axis=0) / size
-    energy = 0.5 * mass * np.sum(state[count : 2 * count] ** 2, axis=0) + size * potential(strain, beta, gamma).sum(axis=0)
+    energy = 0.5 * mass * np.sum(state[count : 2 * count] ** 2, axis=0) + size * potential(strain, beta, gamma).sum(
+        axis=0
+    )
     worst = float(np.max(np.abs(energy - state[-1])) / np.max(state[-1]))
     position = (np.arange(count + 1)[:, None] * size + moved).T
     return Trajectories(time, position, strain.max(axis=1), float(spring(strain[-1], beta, gamma).max()), worst)

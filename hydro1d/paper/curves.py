@@ -47,26 +47,44 @@ def figures_8_9(work: Workshop) -> None:
         "Eq. 39": _measured(work, "step.toml", np.linspace(1.0e6, 4.3e6, work.size.steps)),
         "Eq. 38": _measured(work, "step_tangent.toml", np.linspace(1.0e6, 4.3e6, work.size.steps)),
     }
-    for name, label, quantity, column in (("fig08", "strain behind the front", "strain", 1), ("fig09", "cS (m/s)", "shock_speed", 2)):
+    for name, label, quantity, column in (
+        ("fig08", "strain behind the front", "strain", 1),
+        ("fig09", "cS (m/s)", "shock_speed", 2),
+    ):
         figure, ax = new_figure()
         for (key, hugoniot), color, mark in zip(exact.items(), (RED, GREEN), "os", strict=True):
             ax.plot(velocities, getattr(hugoniot, quantity), color=color, lw=1.6, label=key)
-            ax.plot(points[key][:, 0], points[key][:, column], mark, color=color, mfc="none", ms=6, label=f"{key}, solver")
+            ax.plot(
+                points[key][:, 0], points[key][:, column], mark, color=color, mfc="none", ms=6, label=f"{key}, solver"
+            )
         ax.set(xlabel="[v] (m/s)", ylabel=label, xlim=(0, 260))
         if name == "fig08":
             ax.set_ylim(0.4, 1.0)
         ax.legend(frameon=False)
         data = columns(
-            v__m_s=velocities, **{f"eq39_{quantity}": getattr(exact["Eq. 39"], quantity)},
+            v__m_s=velocities,
+            **{f"eq39_{quantity}": getattr(exact["Eq. 39"], quantity)},
             **{f"eq38_{quantity}": getattr(exact["Eq. 38"], quantity)},
-            **{f"solver_{key[-2:]}_{what}": points[key][:, k] for key in points for k, what in ((0, "v__m_s"), (column, quantity))},
-        )  # fmt: skip
-        caption = f"Lines: Eqs. 35 and 37. Fit of Eq. 38 to Eq. 39 over 10–250 m/s: β = {beta:.3f}, γ = {gamma:.3f}, rms strain {residual:.3f}."
+            **{
+                f"solver_{key[-2:]}_{what}": points[key][:, k]
+                for key in points
+                for k, what in ((0, "v__m_s"), (column, quantity))
+            },
+        )
+        caption = (
+            f"Lines: Eqs. 35 and 37. Fit of Eq. 38 to Eq. 39 over 10–250 m/s: β = {beta:.3f}, γ = {gamma:.3f}, "
+            f"rms strain {residual:.3f}."
+        )
         work.picture(name, f"Fig. {int(name[3:])}: {label} against [v]", caption, figure, data)
     work.number("8", "beta, fit of Eq. 38 to Eq. 39", "1", equations=beta, note="not printed in the paper")
     work.number("8", "gamma, fit of Eq. 38 to Eq. 39", "1", equations=gamma, note="not printed in the paper")
-    work.number("8", "rms strain difference of the fit", "1", equations=residual,
-                note=f"{used:.4f} with the beta = {foam.BETA}, gamma = {foam.GAMMA} used here: the minimum is flat")  # fmt: skip
+    work.number(
+        "8",
+        "rms strain difference of the fit",
+        "1",
+        equations=residual,
+        note=f"{used:.4f} with the beta = {foam.BETA}, gamma = {foam.GAMMA} used here: the minimum is flat",
+    )
     for key, curve in (("Eq. 39", foam.LINEAR), ("Eq. 38", foam.TANGENT)):
         row = points[key][-1]
         theory = analytic.compaction_hugoniot(curve, row[0])
@@ -76,7 +94,7 @@ def figures_8_9(work: Workshop) -> None:
 
 
 def _measured(work: Workshop, deck: str, pressures: np.ndarray) -> np.ndarray:
-    """[v], strain, cS of steady fronts (runs, 3): states behind and ahead from a profile, speed from the front's path."""
+    """[v], strain, cS of steady fronts (runs, 3): states from a profile, speed from the front's path."""
     rows = []
     for pressure in pressures:
         label = f"{deck[:-5]}_{pressure / 1e6:.3g}MPa"

@@ -25,7 +25,7 @@ def eq30(pressure: float) -> float:
 
 
 def fit_tangent(velocities: np.ndarray) -> tuple[float, float, float]:
-    """β, γ of Eq. 38 that fit the strains of Eq. 39 behind fronts of these [v] (m/s), and the rms difference of strain."""
+    """β, γ of Eq. 38 that fit the strains of Eq. 39 at these [v] (m/s), and the rms difference of strain."""
     found = least_squares(lambda x: _difference(velocities, *x), [1.0, 0.5], bounds=([0.05, 0.05], [10.0, 0.99]))
     beta, gamma = found.x
     return float(beta), float(gamma), float(np.sqrt(np.mean(found.fun**2)))

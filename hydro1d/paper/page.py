@@ -17,22 +17,35 @@ td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}th.n{
 .note{color:#666}p.caption{color:#444}
 """
 _OF_FIGURE = {
-    "fig01": "1", "fig03": "3", "fig05": "5", "fig06": "6", "fig08": "8", "fig09": "9", "fig11a": "11a", "fig11b": "11b",
-    "fig12": "12", "new1_support_stress": "new 1", "new2_peak_map": "new 2", "new3_energy": "new 3", "new4_studies": "new 4",
-}  # fmt: skip
+    "fig01": "1",
+    "fig03": "3",
+    "fig05": "5",
+    "fig06": "6",
+    "fig08": "8",
+    "fig09": "9",
+    "fig11a": "11a",
+    "fig11b": "11b",
+    "fig12": "12",
+    "new1_support_stress": "new 1",
+    "new2_peak_map": "new 2",
+    "new3_energy": "new 3",
+    "new4_studies": "new 4",
+}
 
 
 def write_page(work: Workshop, seconds: float) -> None:
     """Write index.html into the workshop's folder."""
     parts = [
-        "<!doctype html><html lang='en'><meta charset='utf-8'><title>The correct analysis of shocks, reproduced</title>",
+        "<!doctype html><html lang='en'><meta charset='utf-8'>",
+        "<title>The correct analysis of shocks, reproduced</title>",
         f"<style>{_STYLE}</style>",
         "<h1>The correct analysis of shocks in a cellular material, reproduced</h1>",
         "<p>Harrigan, Reid &amp; Seyed Yaghoubi, Int. J. Impact Engineering 37 (2010) 918–927, "
         "<a href='https://doi.org/10.1016/j.ijimpeng.2009.03.011'>doi:10.1016/j.ijimpeng.2009.03.011</a>. "
-        "Each table puts side by side what the paper prints, what its equations give, and what the solver gives; the "
-        "difference is the solver's from the equations, or, where there is no solver, the equations' from the paper.</p>",
-        f"<p class='note'>Made in {seconds:.0f} s. The data of every figure lie beside this page as CSV, runs and tables as HDF5.</p>",
+        "Each table puts side by side what the paper prints, what its equations give, and what the solver "
+        "gives; the "
+        "difference is the solver's from the equations, or else the equations' from the paper.</p>",
+        f"<p class='note'>Made in {seconds:.0f} s. The data of every figure lie beside it, as CSV and HDF5.</p>",
     ]
     for picture in work.pictures:
         image = base64.b64encode((work.folder / f"{picture.name}.png").read_bytes()).decode()
@@ -48,13 +61,15 @@ def write_page(work: Workshop, seconds: float) -> None:
 def _table(numbers: list[Number]) -> str:
     if not numbers:
         return ""
-    head = "<tr><th>quantity</th><th class='n'>paper</th><th class='n'>equations</th><th class='n'>solver</th><th>unit</th>"
+    head = "<tr><th>quantity</th>"
+    head += "<th class='n'>paper</th><th class='n'>equations</th><th class='n'>solver</th><th>unit</th>"
     rows = [f"<table>{head}<th class='n'>difference</th><th>note</th></tr>"]
     for item in numbers:
         cells = "".join(f"<td class='n'>{_figure(x)}</td>" for x in (item.paper, item.equations, item.solver))
         change = "" if math.isnan(item.difference) else f"{100 * item.difference:+.3g} %"
+        unit = html.escape(item.unit if item.unit != "1" else "")
         rows.append(
-            f"<tr><td>{html.escape(item.quantity)}</td>{cells}<td>{html.escape(item.unit if item.unit != '1' else '')}</td>"
+            f"<tr><td>{html.escape(item.quantity)}</td>{cells}<td>{unit}</td>"
             f"<td class='n'>{change}</td><td class='note'>{html.escape(item.note)}</td></tr>"
         )
     return "\n".join(rows) + "</table>"

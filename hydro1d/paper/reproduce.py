@@ -28,9 +28,13 @@ PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
 
 
 def reproduce(
-    folder: Path, *, quick: bool = False, only: tuple[str, ...] = (), threads: int | None = None,
+    folder: Path,
+    *,
+    quick: bool = False,
+    only: tuple[str, ...] = (),
+    threads: int | None = None,
     say: Callable[[str], None] = print,
-) -> Path:  # fmt: skip
+) -> Path:
     """Make every figure and number of the paper in ``folder``; returns the page that shows them.
 
     ``quick``: coarser and fewer points, the same figures but for the studies; ``only``: names of `PARTS`.

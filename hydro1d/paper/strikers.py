@@ -37,14 +37,29 @@ def figure_3(work: Workshop) -> None:
     ax.set(xlabel="v0 (m/s)", ylabel="critical length (m)", xlim=(0, 410), ylim=(0, 16.5))
     ax.legend(frameon=False)
     data = columns(
-        v0__m_s=velocity, eq13__m=shock, eq19__m=energy, solver_v0__m_s=speeds, solver__m=lengths[0], softer__m=lengths[1],
+        v0__m_s=velocity,
+        eq13__m=shock,
+        eq19__m=energy,
+        solver_v0__m_s=speeds,
+        solver__m=lengths[0],
+        softer__m=lengths[1],
         solver_rigid_limit__m=limit,
-    )  # fmt: skip
-    caption = "G = 40 kg/m², σP = 0.3 MPa, εD = 0.67, ρ0 = 155 kg/m³. The solver knows nothing of either scheme and finds Eq. 13."
+    )
+    caption = (
+        "G = 40 kg/m², σP = 0.3 MPa, εD = 0.67, ρ0 = 155 kg/m³. The solver knows nothing of either scheme "
+        "and finds Eq. 13."
+    )
     work.picture("fig03", "Fig. 3: critical length against impact velocity", caption, figure, data)
     exact = float(rppl.critical_length(MATERIAL, MASS, 400.0))
-    work.number("3", "critical length at 400 m/s, Eq. 13", "m", paper=2.62, equations=exact, solver=limit[-1],
-                note=f"solver extrapolated to rigid; {lengths[0][-1]:.4g} m at stiffness {stiff:g}")  # fmt: skip
+    work.number(
+        "3",
+        "critical length at 400 m/s, Eq. 13",
+        "m",
+        paper=2.62,
+        equations=exact,
+        solver=limit[-1],
+        note=f"solver extrapolated to rigid; {lengths[0][-1]:.4g} m at stiffness {stiff:g}",
+    )
     wrong = float(rppl_energy_balance.critical_length(MATERIAL, MASS, 400.0))
     work.number("3", "critical length at 400 m/s, Eq. 19", "m", paper=15.9, equations=wrong, note="Scheme 2")
     worst = float(np.max(np.abs(limit / rppl.critical_length(MATERIAL, MASS, speeds) - 1.0)))
@@ -56,9 +71,11 @@ def _critical_length(work: Workshop, speed: float, stiffness: float) -> float:
     guess = float(rppl.critical_length(MATERIAL, MASS, speed))
     end = 1.2 * MASS * speed / MATERIAL.plateau_stress
     fixed = (
-        override("left.velocity", speed), override("material.foam.stiffness", stiffness), override("time.end", end),
+        override("left.velocity", speed),
+        override("material.foam.stiffness", stiffness),
+        override("time.end", end),
         override("layer[0].zones", work.size.zones),
-    )  # fmt: skip
+    )
 
     def crushed(length: float) -> bool:
         texts = (*fixed, override("layer[0].thickness", length))

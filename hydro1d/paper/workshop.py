@@ -21,7 +21,15 @@ from hydro1d.store import Run
 from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
 
-BLUE, RED, GREEN, ORANGE, PURPLE, GREY, BROWN = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00", "#7d3c98", "#777777", "#8b5a2b"
+BLUE, RED, GREEN, ORANGE, PURPLE, GREY, BROWN = (
+    "#1f5fa8",
+    "#c0392b",
+    "#2e8b57",
+    "#e08a00",
+    "#7d3c98",
+    "#777777",
+    "#8b5a2b",
+)
 STYLE = {"lw": 1.6}
 
 
@@ -70,15 +78,27 @@ class Size:
 
 
 QUICK = Size(
-    pressures=6, zones=50, masses=(10, 20), mass_pressures=4, tolerance=5e-3, map_points=7, fine_zones=400, striker_points=3,
-    steps=4, stiffness=(1000.0, 4000.0), unloading=(20.0,), studies=False,
-)  # fmt: skip
+    pressures=6,
+    zones=50,
+    masses=(10, 20),
+    mass_pressures=4,
+    tolerance=5e-3,
+    map_points=7,
+    fine_zones=400,
+    striker_points=3,
+    steps=4,
+    stiffness=(1000.0, 4000.0),
+    unloading=(20.0,),
+    studies=False,
+)
 
 
 class Workshop:
     """The folder that everything goes to, and what has been made so far."""
 
-    def __init__(self, folder: Path, size: Size, threads: int | None = None, say: Callable[[str], None] = print) -> None:
+    def __init__(
+        self, folder: Path, size: Size, threads: int | None = None, say: Callable[[str], None] = print
+    ) -> None:
         self.folder, self.size, self.threads, self.say = folder, size, threads, say
         self.data = folder / "data"
         self.numbers: list[Number] = []
@@ -98,9 +118,16 @@ class Workshop:
         return read_table(self.data / f"{label}.h5")
 
     def number(
-        self, figure: str, quantity: str, unit: str, *, paper: float = math.nan, equations: float = math.nan,
-        solver: float = math.nan, note: str = "",
-    ) -> None:  # fmt: skip
+        self,
+        figure: str,
+        quantity: str,
+        unit: str,
+        *,
+        paper: Any = math.nan,
+        equations: Any = math.nan,
+        solver: Any = math.nan,
+        note: str = "",
+    ) -> None:
         """Keep a number for numbers.csv."""
         self.numbers.append(Number(figure, quantity, unit, float(paper), float(equations), float(solver), note))
 

@@ -42,7 +42,7 @@ class Search:
 
 @dataclass(frozen=True)
 class Critical:
-    """One critical value. `value` is NaN if nothing flips (`message` says so); evaluations hold (value, answer, quantity)."""
+    """One critical value, NaN if nothing flips (`message` says so), and value, answer, quantity, status of each run."""
 
     value: float
     low: float
@@ -55,22 +55,38 @@ class Critical:
 
 
 def critical(
-    base: str | Path | Mapping[str, Any], key: str, low: Any, high: Any, outcome: str, *, overrides: Sequence[str] = (),
-    tolerance: float = 1e-3, scan: int = 5, spacing: str = "linear", asked_to_stop: Callable[[], bool] = lambda: False,
-) -> Critical:  # fmt: skip
+    base: str | Path | Mapping[str, Any],
+    key: str,
+    low: Any,
+    high: Any,
+    outcome: str,
+    *,
+    overrides: Sequence[str] = (),
+    tolerance: float = 1e-3,
+    scan: int = 5,
+    spacing: str = "linear",
+    asked_to_stop: Callable[[], bool] = lambda: False,
+) -> Critical:
     """The value of ``key`` between low and high at which ``outcome`` flips.
 
-    base: a deck's file or text, or its data; low, high: numbers (SI) or texts with a unit; tolerance: relative width of the
-    last bracket; scan: evaluations spread over the bracket to see whether there is one change only.
+    base: a deck's file or text, or its data; low, high: numbers (SI) or texts with a unit; tolerance: relative width of
+    the last bracket; scan: evaluations spread over the bracket to see whether there is one change only.
     Raises DeckError (deck, key or outcome), NoFlip, BreakdownError if a run breaks down before the outcome is settled.
     """
     return _search(prepare(base, key, low, high, outcome, overrides, tolerance, scan, spacing), asked_to_stop)
 
 
 def prepare(
-    base: str | Path | Mapping[str, Any], key: str, low: Any, high: Any, outcome: str, overrides: Sequence[str] = (),
-    tolerance: float = 1e-3, scan: int = 5, spacing: str = "linear",
-) -> Search:  # fmt: skip
+    base: str | Path | Mapping[str, Any],
+    key: str,
+    low: Any,
+    high: Any,
+    outcome: str,
+    overrides: Sequence[str] = (),
+    tolerance: float = 1e-3,
+    scan: int = 5,
+    spacing: str = "linear",
+) -> Search:
     """Check what a search is asked, on the decks at both ends of the bracket."""
     data, folder = base_data(base)
     wanted = parse_outcome(outcome)
@@ -115,14 +131,26 @@ def _search(search: Search, asked_to_stop: Callable[[], bool]) -> Critical:
 
 
 def trace(
-    base: str | Path | Mapping[str, Any], key: str, low: Any, high: Any, outcome: str, along: str, values: Sequence[Any], *,
-    overrides: Sequence[str] = (), tolerance: float = 1e-3, scan: int = 5, spacing: str = "linear",
-    executor: Executor | None = None, threads: int | None = None, progress: Callable[[float], None] | None = None,
-) -> list[Critical]:  # fmt: skip
+    base: str | Path | Mapping[str, Any],
+    key: str,
+    low: Any,
+    high: Any,
+    outcome: str,
+    along: str,
+    values: Sequence[Any],
+    *,
+    overrides: Sequence[str] = (),
+    tolerance: float = 1e-3,
+    scan: int = 5,
+    spacing: str = "linear",
+    executor: Executor | None = None,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> list[Critical]:
     """`critical` for every value of a second key: a boundary. Points where nothing flips or a run breaks down say so.
 
-    Runs on threads of this process unless ``executor`` (any of concurrent.futures) is given. Results are in the order of
-    ``values``.
+    Runs on threads of this process unless ``executor`` (any of concurrent.futures) is given. Results are in the order
+    of ``values``.
     """
     search = prepare(base, key, low, high, outcome, (*overrides, override(along, values[0])), tolerance, scan, spacing)
     numbers = [number_of(search.data, search.folder, along, value, overrides) for value in values]

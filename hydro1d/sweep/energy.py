@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from hydro1d.deck import Deck
@@ -43,7 +45,7 @@ def loading_energy(law: Foam, strain: float) -> float:
         return 0.5 * law.modulus * strain**2 if strain > 0.0 or law.tension else 0.0
     corners = sorted({law.yield_strain, min(max(law.densification, law.yield_strain), strain), strain})
     total = 0.5 * law.modulus * law.yield_strain**2
-    for low, high in zip(corners[:-1], corners[1:], strict=True):
+    for low, high in itertools.pairwise(corners):
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         total += half * sum(w * law.loading(middle + half * p)[0] for p, w in zip(_POINTS, _WEIGHTS, strict=True))
     return total

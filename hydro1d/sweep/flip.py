@@ -24,8 +24,8 @@ class NoFlip(Hydro1dError):
 class Flip:
     """The answer changes between `low` and `high`: from `before` to its opposite.
 
-    `evaluations` holds every (value, answer) in the order of the search; `monotonic` is False when they show more than one
-    change, and then this is the lowest one.
+    `evaluations` holds every (value, answer) in the order of the search; `monotonic` is False when they show more
+    than one change, and then this is the lowest one.
     """
 
     low: float
@@ -58,8 +58,8 @@ def find_flip(
     """Bracket the change of ``decide`` between low and high to a relative ``tolerance``.
 
     ``scan`` evaluations spread over the whole bracket come first and show whether there is just one change; bisection
-    follows. None for an answer means that there is none; such values of the scan are left out. Raises NoFlip if all agree,
-    and if bisection meets a None.
+    follows. None for an answer means that there is none; such values of the scan are left out. Raises NoFlip if all
+    agree, and if bisection meets a None.
     """
     answers = [(value, decide(value)) for value in scan_points(low, high, max(scan, 2), spacing)]
     evaluations = [(value, bool(answer)) for value, answer in answers if answer is not None]

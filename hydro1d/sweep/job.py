@@ -32,7 +32,7 @@ Row = dict[str, Any]
 class Job:
     """A run to do: `data` is the base deck as plain data, `overrides` as in ``--set``, `folder` where its files lie.
 
-    `quantities` and `outcomes` are taken from the run by name; `stop_early` ends it when all outcomes are settled as yes.
+    `quantities` and `outcomes` are taken from the run by name; `stop_early` ends it when all outcomes are settled.
     """
 
     data: Mapping[str, Any]
@@ -65,7 +65,7 @@ def _toml(value: Any) -> str:
 
 
 def evaluate(job: Job, asked_to_stop: Callable[[], bool] = lambda: False) -> Row:
-    """Run a job. What goes wrong is in the row: status "complete", "decided", "failed" (with `error`) or "interrupted"."""
+    """Run a job. Its row tells how it ended: "complete", "decided", "failed" (with `error`) or "interrupted"."""
     nothing = {name: float("nan") for name in (*job.quantities, *job.outcomes)}
     try:
         deck = job.deck()
@@ -107,7 +107,8 @@ class _Watch(MemorySink):
 def simulate(
     deck: Deck, outcomes: Sequence[str] = (), asked_to_stop: Callable[[], bool] = lambda: False
 ) -> tuple[Run, Ending]:
-    """Run a deck in memory, also to its breakdown; stop when every one of ``outcomes`` has come to yes for good."""
+    """Run a deck in memory, also to its breakdown; stop when every one of ``outcomes`` has come to yes "
+    "for good."""
     column = column_of(deck)
     looks = [parse_outcome(text).settled(deck) for text in outcomes]
     sink = _Watch(column, looks)
@@ -135,4 +136,5 @@ class Stop:
         self._event.set()
 
     def __call__(self) -> bool:
+        """Whether it was set."""
         return self._event.is_set()

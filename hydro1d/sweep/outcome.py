@@ -1,4 +1,5 @@
-"""Yes/no outcomes of a run by name: ``enhanced``, ``fully_crushed``, ``separated``, ``support_peak > 2 MPa``."""
+"""Yes/no outcomes of a run by name: ``enhanced``, ``fully_crushed``, ``separated``, ``support_peak "
+"> 2 MPa``."""
 
 from __future__ import annotations
 
@@ -17,8 +18,11 @@ from hydro1d.units import UnitError, convert
 WORDS = ("enhanced", "fully_crushed", "separated")
 _COMPARISON = re.compile(r"\s*(?P<quantity>[^<>=]+?)\s*(?P<sign>>=|<=|>|<)\s*(?P<value>[^<>=]+?)\s*")
 _SIGNS: dict[str, Callable[[float, float], bool]] = {
-    ">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le,
-}  # fmt: skip
+    ">": operator.gt,
+    ">=": operator.ge,
+    "<": operator.lt,
+    "<=": operator.le,
+}
 _GROWING = {
     "peak_support_stress": "peak_{side}_stress",
     "support_peak": "peak_{side}_stress",
@@ -45,7 +49,7 @@ class Outcome(NamedTuple):
     def settled(self, deck: Deck) -> Callable[[Mapping[str, float]], bool] | None:
         """A look at a row of the history that says "yes, whatever comes"; None for what can be taken back.
 
-        Peaks only grow, and a zone once crushed stays crushed, so these can end a run early without changing its answer.
+        Peaks only grow, and a zone once crushed stays crushed, so these can end a run early and not change its answer.
         """
         name, bound = self.quantity.name, self.bound
         fixed = all(math.isfinite(layer.law.crushed_strain) for layer in deck.layers)

@@ -1,4 +1,4 @@
-"""SWEEP.toml: a base deck, parameters, quantities. Its mistakes are told like a deck's, all at once, with line and column."""
+"""SWEEP.toml: a base deck, parameters, quantities. Its mistakes are told like a deck's: at once, with their place."""
 
 from __future__ import annotations
 
@@ -133,9 +133,16 @@ class Sweep:
 
     @classmethod
     def of(
-        cls, base: str | Path | Mapping[str, Any], parameters: Sequence[Parameter], quantities: Sequence[str],
-        overrides: Sequence[str] = (), plan: Plan = "grid", samples: int | None = None, seed: int = 0, title: str = "",
-    ) -> Sweep:  # fmt: skip
+        cls,
+        base: str | Path | Mapping[str, Any],
+        parameters: Sequence[Parameter],
+        quantities: Sequence[str],
+        overrides: Sequence[str] = (),
+        plan: Plan = "grid",
+        samples: int | None = None,
+        seed: int = 0,
+        title: str = "",
+    ) -> Sweep:
         """A sweep of a deck's file, text or data. Raises DeckError with everything that is wrong."""
         data, folder = base_data(base)
         sweep = cls(data, folder, tuple(parameters), tuple(quantities), tuple(overrides), plan, samples, seed, title)
@@ -250,7 +257,8 @@ def _value_problems(sweep: Sweep, k: int, parameter: Parameter) -> list[Finding]
 
 
 def load_sweep(path: str | Path) -> Sweep:
-    """Read a SWEEP.toml. Raises DeckError with every mistake, its line and column; FileProblem if it cannot be read."""
+    """Read a SWEEP.toml. Raises DeckError with every mistake, its line and column; FileProblem if it "
+    "cannot be read."""
     path = Path(path)
     text = read_text(path)
     data = parse(text, path)
@@ -275,7 +283,7 @@ def load_sweep(path: str | Path) -> Sweep:
     if not found and file is not None and base is not None:
         sweep = Sweep(
             *base, tuple(parameters), file.quantities, file.set, file.plan, file.samples, file.seed, file.title
-        )  # fmt: skip
+        )
         found = sweep.problems()
         if not found:
             return sweep

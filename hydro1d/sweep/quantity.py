@@ -154,15 +154,23 @@ _PLAIN: dict[str, tuple[str, str, Callable[[Run, Deck], float]]] = {
     "boundary_work": ("J m-2", "work done on the column by both ends", _last("boundary_work")),
     "kinetic_energy": ("J m-2", "kinetic energy at the end", _last("kinetic_energy")),
     "internal_energy": ("J m-2", "internal energy at the end", _last("internal_energy")),
-    "front_dissipation": ("J m-2", "energy dissipated in fronts, beyond the stress-strain curve", _last("viscous_work")),
+    "front_dissipation": (
+        "J m-2",
+        "energy dissipated in fronts, beyond the stress-strain curve",
+        _last("viscous_work"),
+    ),
     "elastic_energy": ("J m-2", "recoverable energy at the end", elastic_energy),
     "crushing_energy": ("J m-2", "energy absorbed along the stress-strain curve, not recoverable", _crushing_energy),
     "kinetic_share": ("1", "kinetic energy over all energy put in", _share(_last("kinetic_energy"))),
     "front_share": ("1", "dissipation in fronts over all energy put in", _share(_last("viscous_work"))),
     "elastic_share": ("1", "recoverable energy over all energy put in", _share(elastic_energy)),
     "crushing_share": ("1", "crushing energy over all energy put in", _share(_crushing_energy)),
-    "energy_error": ("1", "largest energy imbalance", lambda run, deck: float(np.abs(run.history["energy_error"]).max())),
-}  # fmt: skip
+    "energy_error": (
+        "1",
+        "largest energy imbalance",
+        lambda run, deck: float(np.abs(run.history["energy_error"]).max()),
+    ),
+}
 _PLAIN["support_peak"] = _PLAIN["peak_support_stress"]
 
 _REDUCTIONS: dict[str, tuple[str, Callable[[np.ndarray, np.ndarray], float]]] = {

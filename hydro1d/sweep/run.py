@@ -31,8 +31,8 @@ def run_sweep(
 
     Threads of this process by default (a run holds no lock while it computes); ``executor`` may be any of
     concurrent.futures. ``journal`` names a file that keeps finished rows: run again after an interruption and only the
-    rest is done. A run that fails is a row whose status is "failed". The table is the same to the last bit however it was
-    run. Raises Interrupted after Ctrl-C.
+    rest is done. A run that fails is a row whose status is "failed". The table is the same to the last bit however it
+    was run. Raises Interrupted after Ctrl-C.
     """
     jobs = sweep.jobs()
     kept = Journal(Path(journal), digest(sweep), fresh) if journal is not None else None
@@ -49,9 +49,13 @@ def run_sweep(
 
 
 def _fill(
-    rows: dict[int, dict[str, Any]], jobs: list[Job], executor: Executor | None, threads: int | None,
-    journal: Journal | None, progress: Callable[[float], None] | None,
-) -> None:  # fmt: skip
+    rows: dict[int, dict[str, Any]],
+    jobs: list[Job],
+    executor: Executor | None,
+    threads: int | None,
+    journal: Journal | None,
+    progress: Callable[[float], None] | None,
+) -> None:
     waiting = [k for k in range(len(jobs)) if k not in rows]
     stop = Stop()
     pool = executor or ThreadPoolExecutor(threads or threads_here())

@@ -135,7 +135,7 @@ def read_table(path: str | Path) -> Table:
 
 
 def check_text_target(path: Path, mark: str = _MARK) -> None:
-    """Raise FileProblem if a file that hydro1d did not write stands where a table is to go, or nothing can be written."""
+    """Raise FileProblem if a file that is not hydro1d's stands where a table is to go, or nothing can be written."""
     try:
         if path.is_dir():
             raise FileProblem(f"cannot write {path}: it is a folder")

@@ -9,8 +9,8 @@ import pytest
 import hydro1d
 from hydro1d.cli import main
 from hydro1d.paper import foam, pulses
-from hydro1d.paper.boundary import trace_curves
 from hydro1d.paper.boundaries import REVERSIBLE, chain, foam_curve
+from hydro1d.paper.boundary import trace_curves
 from hydro1d.paper.chain import equal_masses, potential, spring
 from hydro1d.paper.masses import _potential_error
 from hydro1d.paper.workshop import deck_path
@@ -46,7 +46,14 @@ def test_potential_is_the_integral_of_the_spring():
 def test_eq30_is_the_rigid_limit_of_the_solver():
     soft, stiff = 625.0, 2500.0
     curves = [
-        foam_curve(f"{k}", "pulse_rppl.toml", 50, f"material.foam.stiffness={k}", bracket=(0.85, 1.12), criteria=("fully_crushed",))
+        foam_curve(
+            f"{k}",
+            "pulse_rppl.toml",
+            50,
+            f"material.foam.stiffness={k}",
+            bracket=(0.85, 1.12),
+            criteria=("fully_crushed",),
+        )
         for k in (soft, stiff)
     ]
     traced = trace_curves(curves, [3.6e6], foam.eq30, 2e-3, scan=2)
@@ -70,7 +77,7 @@ def test_the_printed_numbers_come_out_of_the_slip():
 
 
 def test_fit_of_eq38():
-    beta, gamma, residual = foam.fit_tangent(np.linspace(10.0, 250.0, 25))
+    _, _, residual = foam.fit_tangent(np.linspace(10.0, 250.0, 25))
     assert residual == pytest.approx(0.011, abs=0.001)
     assert foam.misfit(np.linspace(10.0, 250.0, 25), foam.BETA, foam.GAMMA) < 0.012
 

@@ -53,8 +53,16 @@ def test_critical_duration_and_what_was_evaluated():
 
 
 def test_trace_is_in_the_order_of_the_values():
-    points = trace(DECK, "left.duration", "0.8 ms", "2.5 ms", "support_peak > 2 MPa", "left.peak", ["4 MPa", "3 MPa", "1 MPa"],
-                   tolerance=2e-2)  # fmt: skip
+    points = trace(
+        DECK,
+        "left.duration",
+        "0.8 ms",
+        "2.5 ms",
+        "support_peak > 2 MPa",
+        "left.peak",
+        ["4 MPa", "3 MPa", "1 MPa"],
+        tolerance=2e-2,
+    )
     assert points[0].value < points[1].value
     assert "nothing flips" in points[2].message
 
