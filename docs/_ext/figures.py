@@ -138,10 +138,10 @@ def front_times() -> None:
     ax.plot(history.distal_front, ms, color="#D55E00", label="distal compaction front")
     ax.plot([0.0, 1.0], [0.0, 1e3 * pulse.wave_arrival], color=GREY, label="elastic precursor")
     ax.axhline(1.53, color=GREY, linewidth=0.8, linestyle=":")
-    ax.text(0.98, 1.36, "end of the pulse", color=GREY, ha="right")
-    for x, t, text in ((0.86, 0.5, "I  untouched"), (0.62, 2.6, "II  at yield, moves at $V_Y$"), (0.12, 3.6, "III  crushed"),
-                       (0.93, 5.1, "IV")):  # fmt: skip
-        ax.text(x, t, text, ha="center" if text.startswith(("IV", "II ")) else "left" if "III" in text else "center")
+    ax.text(0.01, 1.6, "end of the pulse", color=GREY)
+    regions = ((0.8, 0.4, "I  untouched"), (0.62, 1.9, "II  at yield, moves at $V_Y$"), (0.25, 3.6, "III  crushed"), (0.92, 5.1, "IV"))
+    for x, at, text in regions:
+        ax.text(x, at, text)
     ax.set(xlabel="Lagrangian coordinate X (m)", ylabel="t (ms)", xlim=(0.0, 1.0), ylim=(0.0, 6.3))
     ax.legend(frameon=True, edgecolor="none", loc="upper left", fontsize=8)
 

@@ -69,7 +69,6 @@ def key_rows(cls: type, without: Iterable[str] = ()) -> list[tuple[str, str, str
 
 MEANING = {
     "unloading": "the path of unloading: steep line, or back along the loading curve",
-    "unloading_modulus": "least slope of the unloading line, Pa; `\"rigid\"` is 100 E; default: the modulus",
     "tension": "whether the foam bears tension",
     "negative_phase": "keep the pressure below zero after the positive phase",
     "bonded": "whether the wall holds the end in tension too",
@@ -148,9 +147,8 @@ class QuantitiesOf(MarkdownDirective):
         from hydro1d.store import layout
 
         which = self.arguments[0]
-        if which in ("static", "maxima"):
-            fields = {"static": layout.STATIC, "maxima": layout.MAXIMA}[which].values()
-            rows = [(f"`/{f.path}`", ", ".join(f.dimensions), f.units, f.long_name) for f in fields]
+        if which == "static":
+            rows = [(f"`/{f.path}`", ", ".join(f.dimensions), f.units, f.long_name) for f in layout.STATIC.values()]
             return table(("dataset", "over", "unit", "meaning"), rows)
         found = getattr(variables, which.upper())
         if which == "history":
