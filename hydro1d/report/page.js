@@ -94,9 +94,7 @@
 
     axes(pen, frame, x, y, toX, toY, height) {
       pen.font = "12px system-ui, sans-serif";
-      pen.strokeStyle = "#e4e6e9";
-      pen.fillStyle = "#444";
-      pen.lineWidth = 1;
+      [pen.strokeStyle, pen.fillStyle, pen.lineWidth] = ["#e4e6e9", "#444", 1];
       pen.textAlign = "center";
       pen.beginPath();
       for (const [value, text] of ticks(x[0], x[1], 9)) {
@@ -144,8 +142,7 @@
         pen.fillRect(toX(this.start), frame.top, toX(this.pointer) - toX(this.start), frame.bottom - frame.top);
       }
       if (this.pointer === null) return this.write(null);
-      pen.strokeStyle = "#999";
-      pen.lineWidth = 1;
+      [pen.strokeStyle, pen.lineWidth] = ["#999", 1];
       pen.beginPath();
       pen.moveTo(toX(this.pointer), frame.top);
       pen.lineTo(toX(this.pointer), frame.bottom);
