@@ -26,3 +26,18 @@ def test_from_any_checkpoint_on_everything_is_the_same():
             assert np.array_equal(rows, all_rows[-len(rows) :], equal_nan=True)
             for name, values in rest.frames[-1].fields.items():
                 assert np.array_equal(values, plain.frames[-1].fields[name]), name
+
+
+def test_a_chain_of_restarts_ends_where_one_run_does():
+    options = {"end": 4e-3, "profile_times": np.linspace(0, 4e-3, 9), "checkpoints": CheckpointPlan(cycles=50)}
+    _, whole = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), **options)
+    state, rows = whole.states[0], []
+    for _ in range(20):
+        _, part = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), state=state.copy(), **options)
+        rows = np.concatenate(part.rows)
+        assert np.array_equal(rows, np.concatenate(whole.rows)[-len(rows) :], equal_nan=True)
+        if not part.states:
+            break
+        state = part.states[0]
+    for name, values in part.frames[-1].fields.items():
+        assert np.array_equal(values, whole.frames[-1].fields[name]), name

@@ -1,0 +1,227 @@
+"""Long runs, many runs, interrupted runs, runs in odd places. Figures in docs/reliability.md."""
+
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import hydro1d
+from hydro1d.boundaries.free import Free
+from hydro1d.boundaries.pressure import Pressure
+from hydro1d.boundaries.pulses.rectangular import Rectangular
+from hydro1d.boundaries.wall import Wall
+from hydro1d.column import build_column
+from hydro1d.laws.elastic import Elastic
+from hydro1d.solver import solve
+
+DECK = """
+title = "short"
+[material.foam]
+law = "epph"
+density = 51.6
+modulus = 22e6
+plateau_stress = 0.8e6
+densification_strain = 0.689
+shock_slope = 0.00105
+[[layer]]
+material = "foam"
+thickness = 1
+zones = {zones}
+[left]
+type = "pressure"
+pulse = "rectangular"
+peak = 3.6e6
+duration = 1.53e-3
+[right]
+type = "wall"
+[time]
+end = {end}
+[output]
+profiles = 20
+history = {history}
+{more}
+"""
+
+
+def write_deck(folder: Path, zones=40, end=4e-3, history=5, more="") -> Path:
+    path = folder / "deck.toml"
+    path.write_text(DECK.format(zones=zones, end=end, history=history, more=more))
+    return path
+
+
+def command(*arguments, **options):
+    options["env"] = {**options.get("env", os.environ), "PYTHONPATH": str(Path(hydro1d.__file__).parents[1])}
+    return subprocess.Popen(
+        [sys.executable, "-m", "hydro1d.cli", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options
+    )
+
+
+class Nothing:
+    """A sink that keeps the last row alone."""
+
+    def profile(self, frame): ...
+    def checkpoint(self, state): ...
+    def maxima(self, zone_maxima): ...
+
+    def history(self, rows, probes):
+        self.errors = [*getattr(self, "errors", []), *rows[:, 12]]
+
+
+def ringing(cycles: int) -> np.ndarray:
+    """Energy errors along a free elastic bar that rings after a short pulse."""
+    bar = SimpleNamespace(material="bar", law=Elastic(density=1000.0, modulus=1e9), thickness=1.0, zones=50, velocity=0.0)
+    pulse = Pressure(pulse=Rectangular(peak=1e6, duration=2e-4))
+    step = 0.8 * (1.0 / 50) / 1000.0 / 1.62  # what CFL 0.8 and the default viscosity leave
+    column = build_column([bar], pulse, Free(), end=cycles * step, history=max(cycles // 500, 1))
+    sink = Nothing()
+    outcome = solve(column, sink)
+    assert outcome.cycles > 0.9 * cycles
+    return np.array(sink.errors)
+
+
+@pytest.mark.parametrize("cycles", [20_000, pytest.param(1_000_000, marks=pytest.mark.slow)])
+def test_a_ringing_bar_keeps_its_energy(cycles):
+    errors = ringing(cycles)
+    print(f"{cycles} cycles: largest energy error {np.abs(errors).max():.1e}")
+    assert np.abs(errors).max() < 1e-11
+
+
+def arrays_of(run) -> dict[str, np.ndarray]:
+    found = {name: run[name] for name in run if name != "layer_name"}
+    return found | {f"history/{name}": run.history[name] for name in run.history}
+
+
+def same(one, other) -> bool:
+    a, b = arrays_of(one), arrays_of(other)
+    return a.keys() == b.keys() and all(np.array_equal(a[name], b[name], equal_nan=a[name].dtype.kind == "f") for name in a)
+
+
+def test_the_same_deck_gives_the_same_data_wherever_it_runs(tmp_path):
+    deck = write_deck(tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "LC_ALL": "C", "TZ": "Asia/Tokyo", "PYTHONHASHSEED": "7"}
+    assert command("run", deck, "-o", tmp_path / "one.h5").wait() == 0
+    assert command("run", deck, cwd=tmp_path / "elsewhere", env=environment).wait() == 0
+    results: dict[int, object] = {}
+    threads = [threading.Thread(target=lambda k=k: results.update({k: hydro1d.run(deck)})) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    one = hydro1d.open_run(tmp_path / "one.h5")
+    assert same(one, hydro1d.open_run(tmp_path / "elsewhere" / "deck.h5"))
+    assert all(same(one, result) for result in results.values())
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_leaves_a_checkpoint_and_a_readable_file(tmp_path, number):
+    deck = write_deck(tmp_path, zones=1000, end=0.05, history=100)
+    running = command("run", deck, "-o", tmp_path / "run.h5")
+    time.sleep(2.5)
+    running.send_signal(number)
+    asked = time.monotonic()
+    _, errors = running.communicate(timeout=60)
+    waited = time.monotonic() - asked
+    assert running.returncode == 130, errors
+    assert b"Traceback" not in errors and b"interrupted" in errors
+    assert not (tmp_path / "run.h5").exists()
+    assert hydro1d.open_run(tmp_path / "run.partial.h5").status == "interrupted"
+    [checkpoint] = tmp_path.glob("run.checkpoint-*.h5")
+    print(f"stopped {waited:.2f} s after the signal; {checkpoint.name}")
+
+
+def kill_and_restart(folder: Path, deck: Path, whole, seconds: float) -> str:
+    """Kill a run after so long, check what it left, go on from its last checkpoint and compare."""
+    output = folder / "run.h5"
+    for old in folder.glob("run.*"):
+        old.unlink()
+    running = command("run", deck, "-o", output, "--quiet")
+    time.sleep(seconds)
+    running.kill()
+    running.communicate()
+    for left in folder.glob("run*.h5"):
+        hydro1d.open_run(left)["strain"]  # whatever has a name is complete and reads
+    if output.exists():
+        assert same(hydro1d.open_run(output), whole)
+        return "finished"
+    checkpoints = sorted(folder.glob("run.checkpoint-*.h5"), key=lambda path: int(path.stem.rpartition("-")[2]))
+    if not checkpoints:
+        return "no checkpoint yet"
+    again = command("run", deck, "-o", output, "--restart", checkpoints[-1], "--quiet")
+    _, errors = again.communicate()
+    assert again.returncode == 0, errors
+    assert same(hydro1d.open_run(output), whole)
+    return "restarted"
+
+
+@pytest.mark.parametrize("kills", [6, pytest.param(500, marks=pytest.mark.slow)])
+def test_killed_runs_go_on_bit_for_bit(tmp_path, kills):
+    deck = write_deck(tmp_path, zones=200, end=8e-3, history=20, more="[checkpoint]\ncycles = 700\n")
+    begun = time.monotonic()
+    assert command("run", deck, "-o", tmp_path / "whole.h5", "--quiet").wait() == 0
+    longest = time.monotonic() - begun
+    whole = hydro1d.open_run(tmp_path / "whole.h5")
+    rng = np.random.default_rng(1)
+    words = [kill_and_restart(tmp_path, deck, whole, rng.uniform(0.2, 1.0) * longest) for _ in range(kills)]
+    print({word: words.count(word) for word in set(words)})
+
+
+def test_memory_and_files_stay_flat(tmp_path):
+    deck = hydro1d.load_deck(write_deck(tmp_path, zones=20, end=1e-3))
+    grown, handles = repeat(deck, tmp_path, 20, 60)
+    assert handles == 0 and grown < 0.03
+
+
+@pytest.mark.slow
+def test_memory_and_files_stay_flat_over_ten_thousand_runs(tmp_path):
+    deck = hydro1d.load_deck(write_deck(tmp_path, zones=20, end=1e-3))
+    grown, handles = repeat(deck, tmp_path, 500, 10_000)
+    print(f"memory grew by {100 * grown:.2f} %, {handles} handles leaked")
+    assert handles == 0 and grown < 0.01
+
+
+def repeat(deck, folder: Path, warm: int, runs: int) -> tuple[float, int]:
+    """Share by which the process grew, and handles that it leaked, over so many runs after some to warm up."""
+    for count in range(warm + runs):
+        if count == warm:
+            memory, handles = resident(), len(os.listdir("/proc/self/fd"))
+        hydro1d.run(deck, folder / "run.h5")
+    return resident() / memory - 1.0, len(os.listdir("/proc/self/fd")) - handles
+
+
+def resident() -> float:
+    """Resident memory of this process, bytes."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * resource.getpagesize()
+
+
+@pytest.mark.parametrize("home", ["no home", pytest.param("read-only cache", marks=pytest.mark.slow)])
+def test_a_run_needs_no_home_and_no_cache(tmp_path, home):
+    deck = write_deck(tmp_path)
+    environment = {key: value for key, value in os.environ.items() if key not in ("HOME", "XDG_CACHE_HOME", "HYDRO1D_CACHE_DIR")}
+    if home == "read-only cache":
+        environment["HYDRO1D_CACHE_DIR"] = "/proc/nowhere"
+    else:
+        environment["HOME"] = "/nonexistent"
+    running = command("run", deck, "-o", tmp_path / "run.h5", env=environment)
+    assert running.wait() == 0, running.stderr.read()
+
+
+@pytest.mark.slow  # four processes that all compile at once
+def test_concurrent_runs_share_a_folder_and_a_cache(tmp_path):
+    deck = write_deck(tmp_path)
+    environment = {**os.environ, "HYDRO1D_CACHE_DIR": str(tmp_path / "cache")}
+    running = [command("run", deck, "-o", tmp_path / f"run{k % 2}.h5", env=environment) for k in range(4)]
+    assert [one.wait() for one in running] == [0, 0, 0, 0]
+    assert same(hydro1d.open_run(tmp_path / "run0.h5"), hydro1d.open_run(tmp_path / "run1.h5"))
+    assert not list(tmp_path.glob("*partial*"))
