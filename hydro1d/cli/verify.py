@@ -17,7 +17,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--markdown", metavar="FILE", type=Path, help="write the page of the documentation")
     parser.add_argument(
-        "--only", metavar="PATTERN", action="append", default=[], help="run the cases of this name (* stands for anything); can be repeated"
+        "--only", metavar="PATTERN", action="append", default=[],
+        help="run the cases of this name (* stands for anything); can be repeated",
     )  # fmt: skip
     parser.add_argument("--list", action="store_true", help="name the cases and leave")
     parser.add_argument("--quiet", action="store_true", help="print failures and the last line only")

@@ -23,8 +23,8 @@ class Effort:
 class Case:
     """One entry of the suite.
 
-    `study(table, effort)` runs the solver and fills the table with exactly `rows` rows; about: what is run and what is compared,
-    one paragraph, for the report.
+    `study(table, effort)` runs the solver and fills the table with exactly `rows` rows; about: what is run and
+    compared, one paragraph, for the report.
     """
 
     name: str

@@ -21,7 +21,13 @@ def svg(panels: tuple[Panel, ...], prefix: str) -> str:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
 
-    style = {"svg.fonttype": "none", "svg.hashsalt": prefix, "font.family": "sans-serif", "font.size": 9.0, "axes.titlesize": 9.5}
+    style: Any = {
+        "svg.fonttype": "none",
+        "svg.hashsalt": prefix,
+        "font.family": "sans-serif",
+        "font.size": 9.0,
+        "axes.titlesize": 9.5,
+    }
     columns = min(len(panels), MOST_COLUMNS)
     rows = -(-len(panels) // columns)
     with matplotlib.rc_context(style):
@@ -43,7 +49,15 @@ def _draw(axes: Any, panel: Panel) -> None:
         x, y = _thinned(item)
         colour = EXACT if item.style == "exact" else next(colours)
         if panel.log:
-            axes.loglog(x, np.maximum(np.abs(y), 1e-18), "o-", color=colour, markersize=3.5, linewidth=1.0, label=item.label or None)
+            axes.loglog(
+                x,
+                np.maximum(np.abs(y), 1e-18),
+                "o-",
+                color=colour,
+                markersize=3.5,
+                linewidth=1.0,
+                label=item.label or None,
+            )
         elif item.style == "exact":
             axes.plot(x, y, "-", color=colour, linewidth=2.2, alpha=0.45, label=item.label or None)
         elif item.style == "points":
@@ -86,4 +100,9 @@ def _inline(text: str, prefix: str, percent: int) -> str:
     body = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
     body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', body)
     body = re.sub(r'(xlink:href="#|url\(#)', rf"\g<1>{prefix}-", body)
-    return re.sub(r'(<svg\b[^>]*?) width="[^"]+"', rf'\1 width="{percent}%"', re.sub(r' height="[\d.]+pt"', "", body, count=1), count=1)
+    return re.sub(
+        r'(<svg\b[^>]*?) width="[^"]+"',
+        rf'\1 width="{percent}%"',
+        re.sub(r' height="[\d.]+pt"', "", body, count=1),
+        count=1,
+    )

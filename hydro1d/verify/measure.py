@@ -22,7 +22,7 @@ START_UP = 5  # zones at the loaded end whose medians are left out; `worst` has 
 
 
 class Recording:
-    """A sink that keeps profiles and history, and reads like a run: ``recording["momentum"]`` is a column of the history."""
+    """A sink that keeps profiles and history; ``recording["momentum"]`` is a column of the history."""
 
     def __init__(self, column: Column) -> None:
         self.column = column
@@ -110,7 +110,7 @@ class Front(NamedTuple):
 
 
 def measure_front(column: Column, fields: dict[str, np.ndarray], exact: Jump, coordinate: float, clear: float) -> Front:
-    """Measure the front of a uniform column, known to be near ``coordinate``; ahead of it the plateau reaches to ``clear`` (m)."""
+    """Measure the front near ``coordinate`` of a uniform column; ahead of it the plateau reaches to ``clear`` (m)."""
     size = column.slabs[0].size
     strain, q = fields["strain"], fields["viscosity"]
     arrived, beyond = int(coordinate / size), min(int(clear / size), column.zones)
@@ -137,13 +137,13 @@ def _median(fields: dict[str, np.ndarray], zones: slice) -> State:
     return State(*(float(np.median(fields[name][zones])) for name in names))
 
 
-def order(zones: Sequence[int], errors: Sequence[float]) -> float:
+def order(zones: ArrayLike, errors: ArrayLike) -> float:
     """Observed order: slope of the least-squares line through log error against log zone size."""
     values = np.maximum(np.abs(np.asarray(errors, dtype=float)), 1e-300)
     return float(-np.polyfit(np.log(np.asarray(zones, dtype=float)), np.log(values), 1)[0])
 
 
-def extrapolate(parameters: Sequence[float], values: Sequence[float], power: float) -> float:
+def extrapolate(parameters: ArrayLike, values: ArrayLike, power: float) -> float:
     """Limit of values that approach it as parameter^(−power): the least-squares line in that variable, at zero."""
     return float(np.polyfit(np.asarray(parameters, dtype=float) ** -power, np.asarray(values, dtype=float), 1)[1])
 

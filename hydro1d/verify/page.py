@@ -14,8 +14,10 @@ from hydro1d.verify.suite import Report
 
 STYLE = """
 :root { color-scheme: light; }
-body { font: 15px/1.45 system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: 74rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.7rem; } h2 { font-size: 1.2rem; margin: 2.6rem 0 .4rem; border-top: 1px solid #ddd; padding-top: 1rem; }
+body { font: 15px/1.45 system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: 74rem; margin: 2rem auto;
+  padding: 0 1rem; }
+h1 { font-size: 1.7rem; }
+h2 { font-size: 1.2rem; margin: 2.6rem 0 .4rem; border-top: 1px solid #ddd; padding-top: 1rem; }
 p.about { max-width: 58rem; color: #333; }
 table { border-collapse: collapse; font-size: 13px; width: 100%; font-variant-numeric: tabular-nums; }
 th { text-align: left; border-bottom: 2px solid #999; padding: .25rem .5rem; }
@@ -42,7 +44,8 @@ def html_page(reports: Sequence[Report], rows: Sequence[Row], *, full: bool, sec
         '<link rel="icon" href="data:,">',
         f"<style>{STYLE}</style></head><body>",
         "<h1>hydro1d: verification</h1>",
-        f"<p>The solver against exact solutions. hydro1d {html.escape(__version__)}, {'full' if full else 'default'} suite, "
+        f"<p>The solver against exact solutions. hydro1d {html.escape(__version__)}, {'full' if full else 'default'} "
+        f"suite, "
         f"Python {platform.python_version()}, {html.escape(platform.machine())}.</p>",
         _verdict(rows, len(reports), seconds),
         _rows_table(alone) if alone else "",
@@ -65,13 +68,24 @@ def _overview(reports: Sequence[Report]) -> str:
         judged = sum(math.isfinite(r.tolerance) for r in report.rows)
         failed = sum(not r.passed for r in report.rows)
         verdict = f'<td class="fail">{failed} FAILED</td>' if failed else '<td class="pass">pass</td>'
-        cells = ("", "", "") if row is None else (html.escape(row.quantity), text.short(row.error), text.limit(row.tolerance))
-        lines.append(
-            f'<tr><td><a href="#{anchor(report)}">{html.escape(report.case.title)}</a></td><td class="n">{judged}</td>{verdict}'
-            f'<td>{cells[0]}</td><td class="n">{cells[1]}</td><td class="n">{cells[2]}</td><td class="n">{report.seconds:.1f} s</td></tr>'
+        cells = (
+            ("", "", "")
+            if row is None
+            else (html.escape(row.quantity), text.short(row.error), text.limit(row.tolerance))
         )
-    head = '<th>case</th><th class="n">rows</th><th></th><th>nearest to its tolerance</th><th class="n">error</th><th class="n">tolerance</th><th class="n">took</th>'
+        lines.append(
+            f'<tr><td><a href="#{anchor(report)}">{html.escape(report.case.title)}</a></td><td '
+            f'class="n">{judged}</td>{verdict}'
+            f'<td>{cells[0]}</td><td class="n">{cells[1]}</td><td class="n">{cells[2]}</td><td '
+            f'class="n">{report.seconds:.1f} s</td></tr>'
+        )
+    head = _head("case", "rows>", "", "nearest to its tolerance", "error>", "tolerance>", "took>")
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
+
+
+def _head(*names: str) -> str:
+    """Cells of a head; a name that ends in > stands over numbers."""
+    return "".join(f'<th class="n">{name[:-1]}</th>' if name.endswith(">") else f"<th>{name}</th>" for name in names)
 
 
 def hardest(rows: Sequence[Row]) -> Row | None:
@@ -91,13 +105,14 @@ def _case(report: Report) -> str:
     figure = f"<figure>{svg(report.panels, anchor(report))}</figure>" if report.panels else ""
     opened = " open" if not report.passed or len(report.rows) < 16 else ""
     return (
-        f'<h2 id="{anchor(report)}">{html.escape(report.case.title)}</h2>\n<p class="about">{html.escape(report.case.about)}</p>\n{figure}\n'
+        f'<h2 id="{anchor(report)}">{html.escape(report.case.title)}</h2>\n'
+        f'<p class="about">{html.escape(report.case.about)}</p>\n{figure}\n'
         f"<details{opened}><summary>{len(report.rows)} rows</summary>{_rows_table(report.rows)}</details>"
     )
 
 
 def _rows_table(rows: Sequence[Row]) -> str:
-    head = '<th>quantity</th><th class="n">exact</th><th class="n">measured</th><th class="n">error</th><th class="n">order</th><th class="n">tolerance</th><th></th><th>why this tolerance</th>'
+    head = _head("quantity", "exact>", "measured>", "error>", "order>", "tolerance>", "", "why this tolerance")
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(_row(row) for row in rows)}</tbody></table>"
 
 
@@ -106,10 +121,16 @@ def _row(row: Row) -> str:
     order = "" if row.order is None else f"{row.order:.2f}"
     if row.least_order is not None:
         order += f" (≥ {row.least_order:g})"
-    numbers = (text.number(row.exact), text.number(row.measured), text.short(row.error), order, text.limit(row.tolerance))
+    numbers = (
+        text.number(row.exact),
+        text.number(row.measured),
+        text.short(row.error),
+        order,
+        text.limit(row.tolerance),
+    )
     cells = "".join(f'<td class="n">{cell}</td>' for cell in numbers)
     failed = "" if row.passed else ' class="failed"'
     return (
-        f"<tr{failed}><td>{html.escape(row.quantity)}</td>{cells}<td class=\"{verdict.lower()}\">{verdict}</td>"
+        f'<tr{failed}><td>{html.escape(row.quantity)}</td>{cells}<td class="{verdict.lower()}">{verdict}</td>'
         f'<td class="reason">{html.escape(row.reason)}</td></tr>'
     )

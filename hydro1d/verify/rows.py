@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
@@ -16,8 +16,8 @@ class Row:
     """One comparison.
 
     error is |measured − exact|/|exact|, or absolute where exact is 0 or a scale is named in `quantity`; order is what
-    successive resolutions show (None: not asked for, or exact already); tolerance bounds the error (infinite: reported only) and
-    least_order the order. reason says where the tolerance comes from.
+    successive resolutions show (None: not asked for, or exact already); tolerance bounds the error (infinite: reported
+    only) and least_order the order. reason says where the tolerance comes from.
     """
 
     case: str
@@ -34,7 +34,8 @@ class Row:
     def plain(self) -> dict[str, Any]:
         """The row as JSON holds it: null for what is not a finite number."""
         return {
-            key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in asdict(self).items()
+            key: None if isinstance(value, float) and not math.isfinite(value) else value
+            for key, value in asdict(self).items()
         }
 
 
@@ -90,7 +91,14 @@ class Table:
         )
 
     def bound(
-        self, quantity: str, value: float, tolerance: float, reason: str, *, order: float | None = None, least_order: float | None = None
+        self,
+        quantity: str,
+        value: float,
+        tolerance: float,
+        reason: str,
+        *,
+        order: float | None = None,
+        least_order: float | None = None,
     ) -> None:
         """Add a quantity that is zero in the exact solution: a residual or a norm of the error."""
         self.compare(quantity, 0.0, value, tolerance, reason, order=order, least_order=least_order)
@@ -103,7 +111,7 @@ class Table:
         """Add a set of axes to the case's figure."""
         self.panels.append(Panel(title, x_label, y_label, tuple(lines), log))
 
-    def convergence(self, zones: Sequence[int], errors: dict[str, Sequence[float]], y_label: str) -> None:
+    def convergence(self, zones: ArrayLike, errors: Mapping[str, ArrayLike], y_label: str) -> None:
         """Add the error against the number of zones, on logarithmic axes."""
         lines = [line(zones, values, label) for label, values in errors.items()]
         self.panel("convergence", "zones", y_label, lines, log=True)

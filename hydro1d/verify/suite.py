@@ -66,7 +66,9 @@ def registered_whole(cases: Sequence[Case]) -> Row | None:
     rows = sum(case.rows for case in cases)
     if len(cases) == CASES and rows == ROWS and len({case.name for case in cases}) == CASES:
         return None
-    return failure("suite", "registered rows", f"{len(cases)} cases with {rows} rows are registered, not {CASES} with {ROWS}")
+    return failure(
+        "suite", "registered rows", f"{len(cases)} cases with {rows} rows are registered, not {CASES} with {ROWS}"
+    )
 
 
 def run_case(case: Case, effort: Effort) -> Report:
@@ -77,15 +79,23 @@ def run_case(case: Case, effort: Effort) -> Report:
         case.study(table, effort)
     except Exception as error:
         where = traceback.extract_tb(error.__traceback__)[-1]
-        table.rows.append(failure(case.name, "ran to its end", f"{type(error).__name__}: {error} ({where.name}, line {where.lineno})"))
+        table.rows.append(
+            failure(case.name, "ran to its end", f"{type(error).__name__}: {error} ({where.name}, line {where.lineno})")
+        )
     else:
         if len(table.rows) != case.rows:
-            table.rows.append(failure(case.name, "number of rows", f"{len(table.rows)} rows where {case.rows} are registered"))
+            table.rows.append(
+                failure(case.name, "number of rows", f"{len(table.rows)} rows where {case.rows} are registered")
+            )
     return Report(case, tuple(table.rows), tuple(table.panels), time.perf_counter() - begun)
 
 
 def run_suite(
-    cases: Sequence[Case], *, full: bool = False, workers: int | None = None, done: Callable[[Report], None] = lambda _: None
+    cases: Sequence[Case],
+    *,
+    full: bool = False,
+    workers: int | None = None,
+    done: Callable[[Report], None] = lambda _: None,
 ) -> list[Report]:
     """Run cases on threads (the compiled time loop lets go of the interpreter's lock), in the order given.
 

@@ -25,7 +25,16 @@ def lines(report: Report) -> list[str]:
 def row_text(row: Row) -> str:
     """One row; a failure says its reason below."""
     text = _row(
-        (row.case, row.quantity, number(row.exact), number(row.measured), short(row.error), _order(row), limit(row.tolerance), verdict(row))
+        (
+            row.case,
+            row.quantity,
+            number(row.exact),
+            number(row.measured),
+            short(row.error),
+            _order(row),
+            limit(row.tolerance),
+            verdict(row),
+        )
     )
     return text if row.passed else f"{text}\n    {row.reason}"
 

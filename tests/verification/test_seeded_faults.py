@@ -1,7 +1,7 @@
 """The suite must fail when the code is wrong: errors seeded into a copy of the package turn it red.
 
-Each fault is a textual edit that asserts that it found its target. The copy runs as a process of its own, with a cache of its own,
-so that no compiled kernel of the sound code is met.
+Each fault is a textual edit that asserts that it found its target. The copy runs as a process of its own, with
+a cache of its own, so that no compiled kernel of the sound code is met.
 """
 
 import json
@@ -50,7 +50,13 @@ FAULTS = (
     ),
     Fault(
         "clock shifted by one step",
-        (("kernels/march.py", r"(end\[0\], end\[1\], end\[2\] = ledger\[TIME\])(, ledger\[LAST_STEP\], step\b)", r"\1 + step\2"),),
+        (
+            (
+                "kernels/march.py",
+                r"(end\[0\], end\[1\], end\[2\] = ledger\[TIME\])(, ledger\[LAST_STEP\], step\b)",
+                r"\1 + step\2",
+            ),
+        ),
         ("smooth", "elastic-bar"),
     ),
     Fault(
@@ -65,7 +71,13 @@ FAULTS = (
     ),
     Fault(
         "plateau stress 1 % off",
-        (("laws/base.py", r"(min\(self\.modulus \* strain, )self\.plateau_stress\)", r"\g<1>1.01 * self.plateau_stress)"),),
+        (
+            (
+                "laws/base.py",
+                r"(min\(self\.modulus \* strain, )self\.plateau_stress\)",
+                r"\g<1>1.01 * self.plateau_stress)",
+            ),
+        ),
         ("pressure-step epph", "piston epph"),
     ),
     Fault(
@@ -76,7 +88,16 @@ FAULTS = (
 )
 SOUND = "no fault"
 GREEN = tuple(dict.fromkeys(fault.cases[0] for fault in FAULTS))
-QUICK = ("pressure-step epph", "piston epph", "riemann sod", "smooth", "elastic-bar", "symmetry", "rph-striker", "epph-pulse")
+QUICK = (
+    "pressure-step epph",
+    "piston epph",
+    "riemann sod",
+    "smooth",
+    "elastic-bar",
+    "symmetry",
+    "rph-striker",
+    "epph-pulse",
+)
 
 
 def _copy(folder: Path, fault: Fault | None) -> Path:
@@ -94,9 +115,15 @@ def _verify(folder: Path, cases: tuple[str, ...]) -> tuple[int, list[dict]]:
     """Exit code and rows of ``hydro1d verify`` run from the copy."""
     rows = folder / "rows.json"
     only = [part for case in cases for part in ("--only", case)]
-    environment = os.environ | {"PYTHONPATH": str(folder), "HYDRO1D_CACHE_DIR": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = os.environ | {
+        "PYTHONPATH": str(folder),
+        "HYDRO1D_CACHE_DIR": str(folder / "cache"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
     command = [sys.executable, "-P", "-m", "hydro1d.cli", "verify", "--quiet", "--json", str(rows), *only]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False)
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
+    )
     assert rows.exists(), done.stderr
     assert "Traceback" not in done.stderr, done.stderr
     return done.returncode, json.loads(rows.read_text(encoding="utf-8"))
@@ -105,13 +132,19 @@ def _verify(folder: Path, cases: tuple[str, ...]) -> tuple[int, list[dict]]:
 @pytest.fixture(scope="module")
 def suites(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Future]]:
     """The suite's runs on every copy that a test of this session asks for, two at a time: most of it is compiling."""
-    wanted = {item.callspec.params["fault"] for item in request.session.items if hasattr(item, "callspec") and "fault" in item.callspec.params}
+    wanted = {
+        item.callspec.params["fault"]
+        for item in request.session.items
+        if hasattr(item, "callspec") and "fault" in item.callspec.params
+    }
     with ThreadPoolExecutor(2) as pool:
         runs = {SOUND: pool.submit(lambda: _verify(_copy(tmp_path_factory.mktemp("sound"), None), GREEN))}
         for fault in FAULTS:
             if fault in wanted:
                 folder = tmp_path_factory.mktemp("fault")
-                runs[fault.name] = pool.submit(lambda fault=fault, folder=folder: _verify(_copy(folder, fault), fault.cases[:1]))
+                runs[fault.name] = pool.submit(
+                    lambda fault=fault, folder=folder: _verify(_copy(folder, fault), fault.cases[:1])
+                )
         yield runs
         for run in runs.values():
             run.cancel()

@@ -176,7 +176,9 @@ def test_the_command_writes_what_it_shows(tmp_path, capsys):
 def test_a_failing_row_is_a_failing_command(monkeypatch, capsys):
     from hydro1d.verify import suite
 
-    monkeypatch.setattr(suite, "all_cases", lambda: [_case(lambda table, effort: table.bound("q", 1.0, 0.1, "too much"))])
+    monkeypatch.setattr(
+        suite, "all_cases", lambda: [_case(lambda table, effort: table.bound("q", 1.0, 0.1, "too much"))]
+    )
     assert main(["verify"]) == 1
     out = capsys.readouterr().out
     assert "too much" in out
@@ -194,7 +196,8 @@ def test_the_list_costs_no_run(capsys):
 
 
 def test_help_loads_nothing_heavy():
-    code = "import sys; from hydro1d.cli import main; main(['verify', '--help']); print([m for m in ('numba', 'numpy', 'matplotlib') if m in sys.modules])"
+    heavy = "[m for m in ('numba', 'numpy', 'matplotlib') if m in sys.modules]"
+    code = f"import sys; from hydro1d.cli import main; main(['verify', '--help']); print({heavy})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.rstrip().endswith("[]")
 

@@ -56,7 +56,9 @@ def _study(table: Table, effort: Effort) -> None:
         table.compare(f"{name}: largest u, m, K = 16000 σP", last, largest[-1], 2e-2, RAW)
         table.compare(f"{name}: largest u, m, limit", last, extrapolate(STIFFNESSES, largest, 0.5), 1e-2, LIMIT)
         stops = [crossing(run["time"][5:], run["left_velocity"][5:]) for run in runs]
-        table.compare(f"{name}: stop time, s, limit", exact.stop_time, extrapolate(STIFFNESSES, stops, 0.5), 1e-2, LIMIT)
+        table.compare(
+            f"{name}: stop time, s, limit", exact.stop_time, extrapolate(STIFFNESSES, stops, 0.5), 1e-2, LIMIT
+        )
         errors = np.abs(largest / last - 1.0)
         found_order = order(np.sqrt(STIFFNESSES), errors)
         table.bound(f"{name}: largest u, order in √K", errors[-1], 2e-2, LIMIT, order=found_order, least_order=0.8)
@@ -65,13 +67,16 @@ def _study(table: Table, effort: Effort) -> None:
         for run, stiffness in ((runs[0], 1000), (runs[-1], 16000)):
             lines.append(line(1e3 * run["time"], run["left_position"], f"K = {stiffness} σP"))
         table.panel(f"{name} pulse", "t, ms", "u, m", lines)
-        table.panel(f"{name}: convergence", "K/σP", "relative error of u", [line(STIFFNESSES, errors, "largest u")], log=True)
+        table.panel(
+            f"{name}: convergence", "K/σP", "relative error of u", [line(STIFFNESSES, errors, "largest u")], log=True
+        )
 
 
 def cases() -> list[Case]:
     """One case."""
     about = (
-        "A steel plate of 15.6 kg/m² on R-P-P-L foam with a fixed back, loaded by an exponential and by a triangular pulse of 8 MPa; the "
+        "A steel plate of 15.6 kg/m² on R-P-P-L foam with a fixed back, loaded by an exponential and by a "
+        "triangular pulse of 8 MPa; the "
         "plate is an elastic layer of two zones. In the rigid limit u(t) is the root of a quadratic."
     )
     return [Case("clad-plate", "Plate on R-P-P-L under a pulse", about, ROWS, _study)]

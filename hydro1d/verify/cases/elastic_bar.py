@@ -37,9 +37,13 @@ class RaisedCosine(Pulse):
         return self.peak * swing * swing
 
 
-def _run(zones: int, pulse: Pulse, end: float, profiles: tuple[float, ...] = (), history: int = 0, probes: tuple = ()) -> Recording:
+def _run(
+    zones: int, pulse: Pulse, end: float, profiles: tuple[float, ...] = (), history: int = 0, probes: tuple = ()
+) -> Recording:
     layers = [
-        Layer(material=name, law=Elastic(density=bar.density, modulus=bar.modulus), thickness=bar.thickness, zones=share)
+        Layer(
+            material=name, law=Elastic(density=bar.density, modulus=bar.modulus), thickness=bar.thickness, zones=share
+        )
         # twice the zones where waves run at half the speed: the same number a transit time
         for name, bar, share in (("near", NEAR, zones // 3), ("far", FAR, 2 * (zones // 3)))
     ]
@@ -74,7 +78,11 @@ def _pulse(table: Table, zones: tuple[int, ...]) -> None:
     """A smooth pulse: through the interface, to the wall and back."""
     duration = 1.6 * NEAR.transit_time
     pulse = RaisedCosine(peak=PEAK, duration=duration)
-    times = (1.5 * NEAR.transit_time, NEAR.transit_time + 1.9 * FAR.transit_time, NEAR.transit_time + 6.0 * FAR.transit_time)
+    times = (
+        1.5 * NEAR.transit_time,
+        NEAR.transit_time + 1.9 * FAR.transit_time,
+        NEAR.transit_time + 6.0 * FAR.transit_time,
+    )
 
     def pressure(t: np.ndarray) -> np.ndarray:
         swing = 0.5 * (1.0 - np.cos(2.0 * np.pi * np.minimum(t / duration, 1.0)))
@@ -90,7 +98,9 @@ def _pulse(table: Table, zones: tuple[int, ...]) -> None:
         for k, frame in enumerate(run.frames):
             errors[k, j] = np.mean(np.abs(frame.fields["stress"] - exact(x, frame.time).stress)) / PEAK
     for k, name in enumerate(names):
-        table.bound(f"pulse {name}: mean |Δσ|/peak", errors[k, -1], 1e-3, SMOOTH, order=order(zones, errors[k]), least_order=1.9)
+        table.bound(
+            f"pulse {name}: mean |Δσ|/peak", errors[k, -1], 1e-3, SMOOTH, order=order(zones, errors[k]), least_order=1.9
+        )
     finest = runs[-1]
     t, stress = finest["time"], finest.probes[:, 0, 3]
     arrival = NEAR.transit_time + (probe - NEAR.thickness) / FAR.wave_speed + 0.5 * duration
@@ -107,7 +117,10 @@ def _pulse(table: Table, zones: tuple[int, ...]) -> None:
         "pulse after three reflections",
         "X, m",
         "σ/peak",
-        [line(x, exact(x, frame.time).stress / PEAK, "exact", "exact"), line(x, frame.fields["stress"] / PEAK, f"{zones[-1]} zones")],
+        [
+            line(x, exact(x, frame.time).stress / PEAK, "exact", "exact"),
+            line(x, frame.fields["stress"] / PEAK, f"{zones[-1]} zones"),
+        ],
     )
     table.convergence(zones, dict(zip(names, errors, strict=True)), "mean |Δσ|/peak")
 
@@ -128,7 +141,9 @@ def _dispersion(table: Table, run: Recording, exact: ElasticLayers, times: tuple
         return float(np.sqrt(np.average((x[late] - centre) ** 2, weights=weight)))
 
     frame = run.frames[1]
-    table.compare("width after the wall, m", width(exact(x, times[1]).stress), width(frame.fields["stress"]), 1e-3, SMOOTH)
+    table.compare(
+        "width after the wall, m", width(exact(x, times[1]).stress), width(frame.fields["stress"]), 1e-3, SMOOTH
+    )
 
 
 def _bound_of_step(table: Table, run: Recording) -> None:
@@ -139,7 +154,14 @@ def _bound_of_step(table: Table, run: Recording) -> None:
         for slab, bar in zip(run.column.slabs, (NEAR, FAR), strict=True)
     ]
     share = float(run["time_step"].max()) / min(bounds)
-    table.compare("longest step over its bound", 0.9, share, 0.1, "cfl = 0.9 of the bound; above 1 the scheme is unstable", scale=0.9)
+    table.compare(
+        "longest step over its bound",
+        0.9,
+        share,
+        0.1,
+        "cfl = 0.9 of the bound; above 1 the scheme is unstable",
+        scale=0.9,
+    )
 
 
 def _study(table: Table, effort: Effort) -> None:
@@ -151,7 +173,8 @@ def _study(table: Table, effort: Effort) -> None:
 def cases() -> list[Case]:
     """One case."""
     about = (
-        "Two bonded bars of impedance 1 : 2 on a wall. A pressure step gives the plateaus of reflection and transmission; a smooth pulse, "
+        "Two bonded bars of impedance 1 : 2 on a wall. A pressure step gives the plateaus of reflection and "
+        "transmission; a smooth pulse, "
         "some six hundred zones long, must keep peak, place and width through an interface and the wall (d'Alembert)."
     )
     return [Case("elastic-bar", "Elastic bars", about, ROWS, _study)]

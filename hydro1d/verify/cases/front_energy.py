@@ -20,8 +20,11 @@ from hydro1d.verify.rows import Table, line
 
 LOAD = 4.5
 ROWS = 5
-CFL = 0.4  # the history's viscous_work takes q and the velocities half a step apart, an error of first order: 0.8 % at 0.9
-REASON = "plateau states are right to 1e-3 and better; 5e-3 is what the comparison of two integrals over the front needs"
+# The history's viscous_work takes q and the velocities half a step apart, an error of first order: 0.8 % at 0.9.
+CFL = 0.4
+REASON = (
+    "plateau states are right to 1e-3 and better; 5e-3 is what the comparison of two integrals over the front needs"
+)
 
 
 def _study(table: Table, effort: Effort, material: Material) -> None:
@@ -34,9 +37,19 @@ def _study(table: Table, effort: Effort, material: Material) -> None:
     zones, errors = effort.zones(120), []
     for n in zones:
         layer = Layer(law=material.law, thickness=1.0, zones=n)
-        run = simulate(layer, Pressure(pulse=Constant(peak=LOAD * PLATEAU)), Transmitting(), end=end, profiles=(end / 1.5, end), history=1, cfl=CFL)
+        run = simulate(
+            layer,
+            Pressure(pulse=Constant(peak=LOAD * PLATEAU)),
+            Transmitting(),
+            end=end,
+            profiles=(end / 1.5, end),
+            history=1,
+            cfl=CFL,
+        )
         later = run.frames[1]
-        front = measure_front(run.column, later.fields, jump, 1.0 / 3.0, min(1.0, material.curve.elastic_speed * end - 30.0 / n))
+        front = measure_front(
+            run.column, later.fields, jump, 1.0 / 3.0, min(1.0, material.curve.elastic_speed * end - 30.0 / n)
+        )
         absorbed = material.law.density * (front.behind.internal_energy - front.ahead.internal_energy)
         errors.append(absorbed / shock - 1.0)
     table.compare("ρ0[e], J/m³, against Eq. 22", shock, absorbed, 5e-3, REASON)
@@ -44,12 +57,20 @@ def _study(table: Table, effort: Effort, material: Material) -> None:
     table.compare("ρ0[e], J/m³, against ½(σB + σA)[ε] as measured", states, absorbed, 5e-3, REASON)
     crossed = jump.front_speed * end / 3.0
     work = np.interp([end / 1.5, end], run["time"], run["viscous_work"])
-    table.compare("work of q over the volume passed, J/m³", shock - quasi_static, (work[1] - work[0]) / crossed, 5e-3, REASON)
+    table.compare(
+        "work of q over the volume passed, J/m³", shock - quasi_static, (work[1] - work[0]) / crossed, 5e-3, REASON
+    )
     plateau = slice(5, front.plateau)
     area = np.array([material.curve.area(float(e)) for e in later.fields["strain"][plateau]])
     excess = float(np.median(material.law.density * later.fields["internal_energy"][plateau] - area))
     table.compare("e − area under the curve, behind, J/m³", shock - quasi_static, excess, 5e-3, REASON)
-    table.bound("ρ0[e], finest", abs(errors[-1]), 5e-3, "converges, or is there already", order=None if errors[-1] < 1e-4 else order(zones, errors))
+    table.bound(
+        "ρ0[e], finest",
+        abs(errors[-1]),
+        5e-3,
+        "converges, or is there already",
+        order=None if errors[-1] < 1e-4 else order(zones, errors),
+    )
     x, strain = run.column.zone_coordinate, np.linspace(0.0, behind.strain, 300)
     table.panel(
         "the front in the stress–strain plane",
@@ -75,8 +96,12 @@ def _study(table: Table, effort: Effort, material: Material) -> None:
 def cases() -> list[Case]:
     """A case for some laws."""
     about = (
-        "A pressure of 4.5 plateau stresses. What the front absorbs per volume against ½(σB + σA)[ε]; its excess over the area under the "
+        "A pressure of 4.5 plateau stresses. What the front absorbs per volume against ½(σB + σA)[ε]; its excess "
+        "over the area under the "
         "curve against the work of the viscosity over the volume passed."
     )
     chosen = (materials.epph(), materials.epph_tangent(), materials.rph(), materials.trilinear(50.0), materials.rppl())
-    return [Case(f"front-energy {m.name}", f"Energy across the front, {m.name}", about, ROWS, partial(_study, material=m)) for m in chosen]
+    return [
+        Case(f"front-energy {m.name}", f"Energy across the front, {m.name}", about, ROWS, partial(_study, material=m))
+        for m in chosen
+    ]

@@ -63,6 +63,12 @@ def cases() -> list[Case]:
     """A case a law of the figures."""
     about = "Pistons of VY + [v], [v] = 10–250 m/s, against E-P-P-H: Figs. 8 and 9 of the paper, a run a point."
     return [
-        Case(f"hugoniot {material.name}", f"Hugoniot, {material.name}", about, 2 * len(JUMPS) + 2, partial(_study, material=material))
+        Case(
+            f"hugoniot {material.name}",
+            f"Hugoniot, {material.name}",
+            about,
+            2 * len(JUMPS) + 2,
+            partial(_study, material=material),
+        )
         for material in (materials.epph(), materials.epph_tangent())
     ]

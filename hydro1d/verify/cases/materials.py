@@ -37,13 +37,17 @@ class Material(NamedTuple):
 def epph() -> Material:
     """Eq. 39; its curve ends at p = 6.9."""
     return Material(
-        "epph", EPPH(**FOAM, shock_slope=SLOPE), analytic.EPPH(*FOAM.values(), SLOPE), (1.5, 3.0, 4.5, 6.0)
+        "epph", EPPH(**FOAM, shock_slope=SLOPE), analytic.EPPH(**FOAM, shock_slope=SLOPE), (1.5, 3.0, 4.5, 6.0)
     )
 
 
 def epph_tangent() -> Material:
     """Eq. 38."""
-    return Material("epph-tangent", EPPHTangent(**FOAM, beta=BETA, gamma=GAMMA), analytic.TangentEPPH(*FOAM.values(), BETA, GAMMA))
+    return Material(
+        "epph-tangent",
+        EPPHTangent(**FOAM, beta=BETA, gamma=GAMMA),
+        analytic.TangentEPPH(**FOAM, beta=BETA, gamma=GAMMA),
+    )
 
 
 def table() -> Material:
@@ -65,20 +69,25 @@ def trilinear(ratio: float) -> Material:
     """Locks with ``ratio`` plateau stresses per strain, early enough to take ten plateau stresses."""
     foam = FOAM | {"densification_strain": min(DENSIFICATION, 0.95 - 9.0 / ratio)}
     law = Trilinear(**foam, locking_modulus=ratio * PLATEAU)
-    curve = analytic.Trilinear(*foam.values(), ratio * PLATEAU)
+    curve = analytic.Trilinear(**foam, locking_modulus=ratio * PLATEAU)
     return Material(f"trilinear-{ratio:g}", law, curve, stiff=ratio > 100.0, zones=240 if ratio < 20.0 else 120)
 
 
-def rppl(stiffness: float = STIFFNESS, density: float = DENSITY, plateau: float = PLATEAU, locking: float = DENSIFICATION) -> Material:
+def rppl(
+    stiffness: float = STIFFNESS, density: float = DENSITY, plateau: float = PLATEAU, locking: float = DENSIFICATION
+) -> Material:
     """R-P-P-L at a finite stiffness."""
-    law = RPPL(density=density, plateau_stress=plateau, densification_strain=locking, stiffness=stiffness)
-    return Material("rppl", law, analytic.stiff_rppl(density, plateau, locking, stiffness * plateau), stiff=True, zones=240)
+    parameters = {"plateau_stress": plateau, "densification_strain": locking, "stiffness": stiffness}
+    law = RPPL(density=density, **parameters)  # type: ignore[call-arg]
+    return Material(
+        "rppl", law, analytic.stiff_rppl(density, plateau, locking, stiffness * plateau), stiff=True, zones=240
+    )
 
 
 def eppr() -> Material:
     """Elastic and plastic as the others, then nearly rigid."""
     law = EPPR(**FOAM, stiffness=STIFFNESS)
-    return Material("eppr", law, analytic.stiff_eppr(*FOAM.values(), STIFFNESS * PLATEAU), stiff=True, zones=240)
+    return Material("eppr", law, analytic.stiff_eppr(**FOAM, stiffness=STIFFNESS * PLATEAU), stiff=True, zones=240)
 
 
 def with_a_shock() -> list[Material]:

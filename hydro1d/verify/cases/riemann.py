@@ -17,11 +17,15 @@ from hydro1d.verify.rows import Table, line
 from hydro1d.viscosity import Viscosity
 
 SAMPLES = 200  # a zone, for the exact mean over it
-# A strong shock in an ideal gas asks for (γ + 1)/4 in the quadratic term (Kuropatenko 1967), 2/3 for γ = 5/3; the default, 2, is
-# made for foams, which lock. The linear coefficient that goes with it was found by trial: more makes the limited jump noisy.
+# A strong shock in an ideal gas asks for (γ + 1)/4 in the quadratic term (Kuropatenko 1967), 2/3 for γ = 5/3; the
+# default, 2, is
+# made for foams, which lock. The linear coefficient that goes with it was found by trial: more makes the limited jump
+# noisy.
 GAS_VISCOSITY = Viscosity(smooth_linear=0.4, quadratic=2.0 / 3.0)
 STAR = "star states are medians between contact and wave: 1e-3 leaves room for the start-up at the diaphragm"
-NORM = "what a good staggered scheme reaches on Sod at 100 zones (4.9e-3), here for the finest of the runs in proportion"
+NORM = (
+    "what a good staggered scheme reaches on Sod at 100 zones (4.9e-3), here for the finest of the runs in proportion"
+)
 ORDER = "discontinuities are captured: first order in the integral, a contact costs nothing on a Lagrangian mesh"
 
 
@@ -61,7 +65,7 @@ def _run(tube: Tube, zones: int) -> Recording:
 
 
 def density_error(exact: RiemannProblem, fields: dict[str, np.ndarray], t: float) -> float:
-    """∫|Δρ|dx over the laboratory, kg/m² (x in m): zone densities are means, and compared with the exact mean over the zone."""
+    """∫|Δρ|dx over the laboratory, kg/m²: zone densities are means, compared with the exact mean over the zone."""
     edges = fields["position"]
     share = (np.arange(SAMPLES) + 0.5) / SAMPLES
     widths = np.diff(edges)
@@ -93,13 +97,17 @@ def _study(table: Table, effort: Effort, tube: Tube) -> None:
         if k < 4:
             pair = order((n // 2, n), (before, error))
             table.bound(f"∫|Δρ|dx, {n} zones", error, tube.coarse_limit / 2**k * 1.2**k, NORM, order=pair)
-    table.bound("∫|Δρ|dx, order of all", errors[-1], tube.coarse_limit, ORDER, order=order(zones, errors), least_order=0.9)
+    table.bound(
+        "∫|Δρ|dx, order of all", errors[-1], tube.coarse_limit, ORDER, order=order(zones, errors), least_order=0.9
+    )
     finest, tolerance = runs[-1], tube.star_tolerance
     for side, name, state in zip((-1, 1), ("left", "right"), exact.star_states, strict=True):
         measured = _star(finest, _between(exact, tube.end, zones[-1], side))
         table.compare(f"p*, {name} of the contact, Pa", state.stress, measured.stress, tolerance, STAR)
         scale = max(abs(exact.star_velocity), tube.left.sound_speed)
-        table.compare(f"v*, {name} of the contact, m/s (over c)", state.velocity, measured.velocity, tolerance, STAR, scale=scale)
+        table.compare(
+            f"v*, {name} of the contact, m/s (over c)", state.velocity, measured.velocity, tolerance, STAR, scale=scale
+        )
         table.compare(f"ρ*, {name} of the contact, kg/m³", state.density, measured.density, tolerance, STAR)
     energy = float(np.max(np.abs(finest["energy_error"])))
     table.bound("energy balance", energy, 1e-12, "compatible differencing balances to round-off")
@@ -120,8 +128,10 @@ def _study(table: Table, effort: Effort, tube: Tube) -> None:
 
 
 ABOUT = (
-    "Two gases at a diaphragm, equal zones, [viscosity] smooth_linear = 0.4, quadratic = 2/3 (strong shocks in gas ask for "
-    "(γ + 1)/4; the default 2 is for foams). Error: the integral of |Δρ| over the laboratory, ρ a mean over the zone; star states: medians over the middle three "
+    "Two gases at a diaphragm, equal zones, [viscosity] smooth_linear = 0.4, quadratic = 2/3 (strong shocks in gas "
+    "ask for "
+    "(γ + 1)/4; the default 2 is for foams). Error: the integral of |Δρ| over the laboratory, ρ a mean over the "
+    "zone; star states: medians over the middle three "
     "fifths between contact and wave."
 )
 

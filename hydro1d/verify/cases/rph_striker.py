@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydro1d.analytic import RPH as Curve
+from hydro1d import analytic
 from hydro1d.analytic import CompactionStriker, RPHFoam, RPHStriker
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
@@ -41,7 +41,10 @@ def _study(table: Table, effort: Effort) -> None:
     _finite(table, effort, exact, runs[0])
     stops = np.array([crossing(run["time"], run["left_striker_velocity"]) for run in runs])
     distances = np.array([run["left_striker_position"].max() for run in runs])
-    for name, value, found in (("stop time, s", exact.stop_time, stops), ("stop distance, m", exact.stop_distance, distances)):
+    for name, value, found in (
+        ("stop time, s", exact.stop_time, stops),
+        ("stop distance, m", exact.stop_distance, distances),
+    ):
         table.compare(f"{name}, E = 6.4 GPa", value, found[-1], 2e-2, RAW)
         table.compare(f"{name}, limit", value, extrapolate(MODULI, found, 0.5), 1e-2, LIMIT)
     t = np.array(TIMES) * exact.stop_time
@@ -52,7 +55,9 @@ def _study(table: Table, effort: Effort) -> None:
         table.compare(f"u at {share:g} of the stopping time, m, limit", theory[k], limit, 1e-2, LIMIT)
     errors = np.abs(distances / exact.stop_distance - 1.0)
     found_order = order(np.sqrt(MODULI), errors)
-    table.bound("stop distance, approach to the limit, order in √E", errors[-1], 2e-2, LIMIT, order=found_order, least_order=0.8)
+    table.bound(
+        "stop distance, approach to the limit, order in √E", errors[-1], 2e-2, LIMIT, order=found_order, least_order=0.8
+    )
     energy = max(float(np.abs(run["energy_error"]).max()) for run in runs)
     table.bound("energy balance", energy, 1e-12, "compatible differencing")
     _figures(table, exact, runs[-1], errors, np.abs(stops / exact.stop_time - 1.0))
@@ -60,7 +65,7 @@ def _study(table: Table, effort: Effort) -> None:
 
 def _finite(table: Table, effort: Effort, exact: RPHStriker, run: Recording) -> None:
     """The softest foam against the theory of its modulus, which ends when the block has slowed down to VY."""
-    theory = CompactionStriker(Curve(DENSITY, MODULI[0], PLATEAU, HARDENING), exact.length, MASS, VELOCITY)
+    theory = CompactionStriker(analytic.RPH(DENSITY, MODULI[0], PLATEAU, HARDENING), exact.length, MASS, VELOCITY)
     t = np.linspace(0.05, 0.95, 40) * theory.end_time
     history = theory.history(t)
     for name, column, values, scale in (
@@ -69,14 +74,22 @@ def _finite(table: Table, effort: Effort, exact: RPHStriker, run: Recording) -> 
     ):
         gap = np.abs(np.interp(t, run["time"], run[column]) - values).max() / scale
         table.bound(f"E = 0.4 GPa: {name}, against finite-E theory", float(gap), 1e-2, FINITE)
-    # Not the history's front: without a densification strain it is where half of the strongest strain is, and this front decays.
+    # Not the history's front: without a densification strain it is where half of the strongest strain is, and this
+    # front decays.
     levels, gaps = effort.zones(200), []
     for zones in levels:
         run = _run(MODULI[0], exact.length, zones, 0.75 * exact.stop_time)
         x, frame = run.column.zone_coordinate, run.frames[0]
         strain = theory(x, frame.time).strain
         gaps.append(float(np.sum(np.abs(frame.fields["strain"] - strain)) / np.sum(strain)))
-    table.bound("E = 0.4 GPa: ∫|Δε|dX over ∫ε dX, finite-E theory", gaps[-1], 5e-2, DECAYS, order=order(levels, gaps), least_order=0.6)
+    table.bound(
+        "E = 0.4 GPa: ∫|Δε|dX over ∫ε dX, finite-E theory",
+        gaps[-1],
+        5e-2,
+        DECAYS,
+        order=order(levels, gaps),
+        least_order=0.6,
+    )
     table.convergence(levels, {"strain": gaps}, "∫|Δε|dX over ∫ε dX")
     table.panel(
         f"strain at {1e3 * frame.time:.2f} ms, E = 0.4 GPa",
@@ -88,18 +101,33 @@ def _finite(table: Table, effort: Effort, exact: RPHStriker, run: Recording) -> 
 
 def _figures(table: Table, exact: RPHStriker, run: Recording, distances: np.ndarray, times: np.ndarray) -> None:
     t = np.linspace(0.0, exact.stop_time, 200)
-    lines = [line(1e3 * t, exact.history(t).velocity, "rigid theory", "exact"), line(1e3 * run["time"], run["left_striker_velocity"], "E = 6.4 GPa")]
+    lines = [
+        line(1e3 * t, exact.history(t).velocity, "rigid theory", "exact"),
+        line(1e3 * run["time"], run["left_striker_velocity"], "E = 6.4 GPa"),
+    ]
     table.panel("velocity of the striker", "t, ms", "v, m/s", lines)
     fields, x = run.last, run.column.zone_coordinate
     strain = exact(x, exact.stop_time).strain
-    table.panel("strain at rest", "X, m", "ε", [line(x, strain, "rigid theory", "exact"), line(x, fields["strain"], "E = 6.4 GPa")])
-    table.panel("convergence", "E, Pa", "relative error", [line(MODULI, distances, "stop distance"), line(MODULI, times, "stop time")], log=True)
+    table.panel(
+        "strain at rest",
+        "X, m",
+        "ε",
+        [line(x, strain, "rigid theory", "exact"), line(x, fields["strain"], "E = 6.4 GPa")],
+    )
+    table.panel(
+        "convergence",
+        "E, Pa",
+        "relative error",
+        [line(MODULI, distances, "stop distance"), line(MODULI, times, "stop time")],
+        log=True,
+    )
 
 
 def cases() -> list[Case]:
     """One case."""
     about = (
-        "20 kg/m² at 120 m/s on foam that hardens from the first (R-PH). The rigid theory has closed forms; the solver's foam is elastic "
+        "20 kg/m² at 120 m/s on foam that hardens from the first (R-PH). The rigid theory has closed forms; the "
+        "solver's foam is elastic "
         "below yield, so the case shows the softest run against the theory of its modulus and the limit in E^(−½)."
     )
     return [Case("rph-striker", "Striker on R-PH", about, ROWS, _study)]

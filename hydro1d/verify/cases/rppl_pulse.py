@@ -74,7 +74,10 @@ def _finite(table: Table, run: Recording) -> None:
     table.bound("K = 1000 σP: front over L, against finite-K theory", float(gap), 5e-3, FINITE)
     moved = np.abs(np.interp(t, run["time"], run["left_position"]) - history.displacement).max() / LENGTH
     table.bound("K = 1000 σP: u of the loaded end over L, against finite-K theory", float(moved), 5e-3, FINITE)
-    lines = [line(1e3 * t, history.front, "theory, K = 1000 σP", "exact"), line(1e3 * run["time"], run["front_position"], "run")]
+    lines = [
+        line(1e3 * t, history.front, "theory, K = 1000 σP", "exact"),
+        line(1e3 * run["time"], run["front_position"], "run"),
+    ]
     table.panel("fronts at the default stiffness", "t, ms", "X, m", lines)
 
 
@@ -91,14 +94,23 @@ def _study(table: Table, effort: Effort) -> None:
         table.compare(f"{name}, K = 16000 σP", value, found[-1, k], 2e-2, RAW)
         table.compare(f"{name}, limit", value, extrapolate(STIFFNESSES, found[:, k], 0.5), 1e-2, LIMIT)
     errors = np.abs(found / theory - 1.0)
-    table.bound("lCR2, approach to the limit, order in √K", errors[-1, 3], 2e-2, LIMIT, order=order(np.sqrt(STIFFNESSES), errors[:, 3]), least_order=0.8)
+    table.bound(
+        "lCR2, approach to the limit, order in √K",
+        errors[-1, 3],
+        2e-2,
+        LIMIT,
+        order=order(np.sqrt(STIFFNESSES), errors[:, 3]),
+        least_order=0.8,
+    )
     critical = float(critical_duration(FOAM, PRESSURE, LENGTH))
     durations = np.array([_critical_duration(k, critical, zones // 2) for k in STIFFNESSES])
     reason = "bisection to 0.1 %; both ends of the column crush at finite K, a shortfall as K^(−½)"
     table.compare("TCR by search, s (Eq. 30), K = 16000 σP", critical, durations[-1], 2e-2, reason)
     table.compare("TCR by search, s (Eq. 30), limit", critical, extrapolate(STIFFNESSES, durations, 0.5), 1e-2, LIMIT)
     table.report("TCR by search, s, at the default stiffness", critical, durations[0], "reported")
-    panels = [line(STIFFNESSES, np.maximum(errors[:, k], 1e-9), name.split(",")[0]) for k, name in enumerate(names) if k != 2]
+    panels = [
+        line(STIFFNESSES, np.maximum(errors[:, k], 1e-9), name.split(",")[0]) for k, name in enumerate(names) if k != 2
+    ]
     panels.append(line(STIFFNESSES, np.abs(durations / critical - 1.0), "TCR"))
     table.panel("convergence", "K/σP", "relative error", panels, log=True)
 
@@ -106,8 +118,10 @@ def _study(table: Table, effort: Effort) -> None:
 def cases() -> list[Case]:
     """One case."""
     about = (
-        "3.6 MPa for 1.53 ms on R-P-P-L with a fixed back, at three stiffnesses K of the regularised rigid lines: velocity and crushed length "
-        "at the end of the pulse, the time at which the momentum is used up, the crushed length at last, and, by bisection on the duration, "
+        "3.6 MPa for 1.53 ms on R-P-P-L with a fixed back, at three stiffnesses K of the regularised rigid lines: "
+        "velocity and crushed length "
+        "at the end of the pulse, the time at which the momentum is used up, the crushed length at last, and, by "
+        "bisection on the duration, "
         "the pulse that just crushes every zone of 1 m."
     )
     return [Case("rppl-pulse", "Pressure pulse on R-P-P-L", about, ROWS, _study)]

@@ -42,7 +42,7 @@ def _run(stiffness: float, length: float, zones: int, end: float) -> Recording:
 
 
 def _front_stress(run: Recording, t: float, window: float) -> float:
-    """σD: what slows down striker and crushed block, their mass times the deceleration, from a parabola through v(t)."""
+    """σD: what slows down striker and crushed block, their mass times deceleration, by a parabola through v(t)."""
     near = np.abs(run["time"] - t) < window
     times, velocity = run["time"][near] - t, run["left_striker_velocity"][near]
     slope = float(np.polyfit(times / window, velocity, 2)[1]) / window
@@ -71,7 +71,10 @@ def _finite(table: Table, exact: RPPLStriker, run: Recording) -> None:
     table.bound("K = 1000 σP: v(t) over v0, against finite-K theory", float(gap), 5e-3, FINITE)
     front = np.abs(np.interp(t, run["time"], run["front_position"]) - history.front).max() / exact.critical_length
     table.bound("K = 1000 σP: front over lCR, against finite-K theory", float(front), 5e-3, FINITE)
-    lines = [line(1e3 * t, history.velocity, "theory, K = 1000 σP", "exact"), line(1e3 * run["time"], run["left_striker_velocity"], "run")]
+    lines = [
+        line(1e3 * t, history.velocity, "theory, K = 1000 σP", "exact"),
+        line(1e3 * run["time"], run["left_striker_velocity"], "run"),
+    ]
     table.panel("striker at the default stiffness", "t, ms", "v, m/s", lines)
 
 
@@ -104,7 +107,9 @@ def _study(table: Table, effort: Effort) -> None:
     velocities = np.array([p.velocity for p in passages])
     stresses = np.array([p.stress for p in passages])
     for k, share in enumerate(SHARES):
-        table.compare(f"v/v0 at {share:g} of the way (Eq. 8), K = 16000 σP", theory[k], velocities[-1, k], 1e-2, RIGID, scale=1.0)
+        table.compare(
+            f"v/v0 at {share:g} of the way (Eq. 8), K = 16000 σP", theory[k], velocities[-1, k], 1e-2, RIGID, scale=1.0
+        )
         limit = extrapolate(STIFFNESSES, velocities[:, k], 0.5)
         table.compare(f"v/v0 at {share:g} of the way (Eq. 8), limit", theory[k], limit, 3e-3, LIMIT, scale=1.0)
     for k, share in enumerate(SHARES[1:], start=1):
@@ -116,27 +121,42 @@ def _study(table: Table, effort: Effort) -> None:
     found_lengths = [_critical_length(k, free.critical_length, zones // 2) for k in STIFFNESSES]
     lengths, ratios = (np.array(values) for values in zip(*found_lengths, strict=True))
     table.compare("lCR by search (Eq. 13), K = 16000 σP, m", free.critical_length, lengths[-1], 1e-2, SEARCH)
-    table.compare("lCR by search (Eq. 13), limit, m", free.critical_length, extrapolate(STIFFNESSES, lengths, 0.5), 1e-2, SEARCH)
+    table.compare(
+        "lCR by search (Eq. 13), limit, m", free.critical_length, extrapolate(STIFFNESSES, lengths, 0.5), 1e-2, SEARCH
+    )
     psi = float(energy_ratio(FOAM, MASS, free.critical_length))
     table.compare("ψ (Eq. 12), K = 16000 σP", psi, ratios[-1], 1e-2, SEARCH)
     table.compare("ψ (Eq. 12), limit", psi, extrapolate(STIFFNESSES, ratios, 0.5), 1e-2, SEARCH)
-    table.report("lCR by search at the default stiffness, m", free.critical_length, lengths[0], "the precursor crushes the far end too")
+    table.report(
+        "lCR by search at the default stiffness, m",
+        free.critical_length,
+        lengths[0],
+        "the precursor crushes the far end too",
+    )
     table.report("ψ at the default stiffness", psi, ratios[0], "reported")
     _figures(table, exact, runs[-1], errors, np.abs(lengths / free.critical_length - 1.0))
 
 
 def _figures(table: Table, exact: RPPLStriker, run: Recording, errors: np.ndarray, lengths: np.ndarray) -> None:
     u = np.linspace(0.0, 0.999 * exact.critical_length * FOAM.densification_strain, 300)
-    lines = [line(u, exact.velocity_at(u), "Eq. 8", "exact"), line(run["left_striker_position"], run["left_striker_velocity"], "K = 16000 σP")]
+    lines = [
+        line(u, exact.velocity_at(u), "Eq. 8", "exact"),
+        line(run["left_striker_position"], run["left_striker_velocity"], "K = 16000 σP"),
+    ]
     table.panel("velocity of the striker", "u, m", "v, m/s", lines)
-    table.panel("convergence", "K/σP", "error", [line(STIFFNESSES, errors, "v/v0"), line(STIFFNESSES, lengths, "lCR")], log=True)
+    table.panel(
+        "convergence", "K/σP", "error", [line(STIFFNESSES, errors, "v/v0"), line(STIFFNESSES, lengths, "lCR")], log=True
+    )
 
 
 def cases() -> list[Case]:
     """One case."""
     about = (
-        "40 kg/m² at 100 m/s on R-P-P-L (Fig. 3's foam). A rigid material is regularised by lines of slope K; the case shows the run at "
-        "the default K against the theory of that K, the run at 16000 σP against the rigid formulas, and the limit in K^(−½). lCR is "
-        "found by bisection on the length of the column; ψ is the internal energy of the column that is just fully crushed."
+        "40 kg/m² at 100 m/s on R-P-P-L (Fig. 3's foam). A rigid material is regularised by lines of slope K; the "
+        "case shows the run at "
+        "the default K against the theory of that K, the run at 16000 σP against the rigid formulas, and the limit "
+        "in K^(−½). lCR is "
+        "found by bisection on the length of the column; ψ is the internal energy of the column that is just fully "
+        "crushed."
     )
     return [Case("rppl-striker", "Striker on R-P-P-L", about, ROWS, _study)]

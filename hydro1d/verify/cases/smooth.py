@@ -18,7 +18,10 @@ from hydro1d.verify.rows import Table, line
 
 GAMMA, END, RISE, SPEED = 1.4, 0.7, 0.6, 0.15
 ROWS = 8
-SECOND = "leapfrog and the slope limiter are of second order where the flow is smooth; 1.95 leaves room for the limiter's clipping"
+SECOND = (
+    "leapfrog and the slope limiter are of second order where the flow is smooth; 1.95 leaves room for the "
+    "limiter's clipping"
+)
 
 
 class SmoothPiston(Boundary):
@@ -81,7 +84,14 @@ def _study(table: Table, effort: Effort) -> None:
         runs = [_run(n, boundary) for n in zones]
         errors = np.array([_errors(exact, run) for run in runs])
         for k, (quantity, limit) in enumerate((("ρ, kg/m³", 2e-6), ("v, m/s", 2e-6), ("e, J/kg", 2e-6))):
-            table.bound(f"{name}: mean error of {quantity}", errors[-1, k], limit, SECOND, order=order(zones, errors[:, k]), least_order=1.95)
+            table.bound(
+                f"{name}: mean error of {quantity}",
+                errors[-1, k],
+                limit,
+                SECOND,
+                order=order(zones, errors[:, k]),
+                least_order=1.95,
+            )
             curves[f"{name}, {quantity}"] = errors[:, k]
     _time_alone(table, driven["pressure"])
     table.bound("energy balance", float(np.abs(runs[-1]["energy_error"]).max()), 1e-12, "compatible differencing")
@@ -104,7 +114,8 @@ def _time_alone(table: Table, boundary: Boundary) -> None:
 def cases() -> list[Case]:
     """One case."""
     about = (
-        "A gas at rest, compressed by a piston whose velocity has three continuous derivatives, and by the pressure that this piston "
+        "A gas at rest, compressed by a piston whose velocity has three continuous derivatives, and by the pressure "
+        "that this piston "
         "feels; compared with the simple wave before a shock forms."
     )
     return [Case("smooth", "Smooth compression", about, ROWS, _study)]

@@ -43,19 +43,25 @@ def _run(material: Material, exact: analytic.StepLoading, boundary: Boundary, zo
     front = exact.jumps()[-1]
     end = CROSSED / front.front_speed
     recording = simulate(
-        Layer(law=material.law, thickness=1.0, zones=zones), boundary, Transmitting(), end=end, profiles=(end / 1.5, end)
+        Layer(law=material.law, thickness=1.0, zones=zones),
+        boundary,
+        Transmitting(),
+        end=end,
+        profiles=(end / 1.5, end),
     )
     found = []
     for frame in recording.frames:
         precursor = material.curve.elastic_speed * frame.time - 30.0 / zones  # stay behind its own width
         at = front.front_speed * frame.time
-        found.append(measure_front(recording.column, frame.fields, front, at, min(1.0, max(precursor, at + 12.0 / zones))))
+        found.append(
+            measure_front(recording.column, frame.fields, front, at, min(1.0, max(precursor, at + 12.0 / zones)))
+        )
     earlier, later = found
     return later, (later.coordinate - earlier.coordinate) / (end / 3.0), recording.last
 
 
 def _rows(table: Table, material: Material, load: str, exact: Jump, front: Front, speed: float) -> None:
-    """Jumps, speeds and residuals of one load; a jump that is small beside the state behind it is judged by that state."""
+    """Jumps, speeds, residuals of one load; a jump that is small beside the state behind it is judged by that state."""
     tolerance, reason = 1e-3, SHARP
     stiff, stiff_reason = (5e-3, STIFF) if material.stiff else (1e-3, SHARP)
     found = Jump(front.ahead, front.behind, exact.initial_density, speed)
@@ -96,7 +102,14 @@ def _study(table: Table, effort: Effort, material: Material, kind: str) -> None:
         _rows(table, material, load, jump, front, speed)
         spreads[load] = [run[0].spread for run in runs]
         width = 5.0 if jump.stress > 0.3 * jump.behind.stress else 15.0  # zones; a weak front is wider
-        table.bound(f"{load}: ∫|Δε|dX/[ε], m, front", spreads[load][-1], width / zones[-1], FRONT, order=order(zones[-2:], spreads[load][-2:]), least_order=0.9)
+        table.bound(
+            f"{load}: ∫|Δε|dX/[ε], m, front",
+            spreads[load][-1],
+            width / zones[-1],
+            FRONT,
+            order=order(zones[-2:], spreads[load][-2:]),
+            least_order=0.9,
+        )
         x = (np.arange(zones[-1]) + 0.5) / zones[-1]
         sharp = exact(x, CROSSED / jump.front_speed)
         profiles += [line(x, sharp.strain, "exact" if not profiles else "", "exact"), line(x, fields["strain"], load)]
@@ -105,9 +118,11 @@ def _study(table: Table, effort: Effort, material: Material, kind: str) -> None:
 
 
 ABOUT = {
-    "pressure-step": "A constant pressure on a column at rest. The states ahead of and behind the compaction front are medians over "
-    "their plateaus (behind: where q has fallen below 1e-4 of [σ]); the front's place is the integral of the strain, its speed that of "
-    "the last third of the run.",
+    "pressure-step": (
+        "A constant pressure on a column at rest. The states ahead of and behind the compaction front are medians over "
+        "their plateaus (behind: where q has fallen below 1e-4 of [σ]); the front's place is the integral of strain, "
+        "its speed that of the last third of the run."
+    ),
     "piston": "A piston of constant velocity against a column at rest; measured as the pressure step.",
 }
 

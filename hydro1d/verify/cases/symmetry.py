@@ -48,20 +48,36 @@ def _conserved(table: Table, name: str, run: Recording) -> None:
     momentum, impulse = run["momentum"], run["boundary_impulse"]
     scale = np.abs(run.column.node_mass).sum() * max(float(np.abs(run.last["velocity"]).max()), 1e-3)
     scale = max(scale, float(np.abs(impulse).max()), float(np.abs(momentum).max()))
-    table.bound(f"{name}: momentum", float(np.abs(momentum - momentum[0] - impulse + impulse[0]).max()) / scale, 1e-12, ROUND_OFF)
+    table.bound(
+        f"{name}: momentum",
+        float(np.abs(momentum - momentum[0] - impulse + impulse[0]).max()) / scale,
+        1e-12,
+        ROUND_OFF,
+    )
 
 
 def _conservation(table: Table, zones: int) -> None:
     runs = {
         "layers under a pulse": simulate(_foam_layers(zones), _pulse(), Wall(), end=3e-3, history=1),
-        "striker on foam": simulate(_foam_layers(zones)[1:], Striker(mass=10.0, velocity=60.0), Wall(), end=3e-3, history=1),
+        "striker on foam": simulate(
+            _foam_layers(zones)[1:], Striker(mass=10.0, velocity=60.0), Wall(), end=3e-3, history=1
+        ),
         "free foam hits a wall": simulate(
-            Layer(law=materials.epph_tangent().law, thickness=1.0, zones=zones, velocity=80.0), Free(), Wall(bonded=False), end=5e-3, history=1
+            Layer(law=materials.epph_tangent().law, thickness=1.0, zones=zones, velocity=80.0),
+            Free(),
+            Wall(bonded=False),
+            end=5e-3,
+            history=1,
         ),
         "gas between pistons": simulate(
             [
                 Layer(material="hot", law=IdealGas(density=1.0, gamma=1.4, pressure=1e5), thickness=0.5, zones=zones),
-                Layer(material="cold", law=IdealGas(density=2.0, gamma=5.0 / 3.0, pressure=1e4), thickness=0.5, zones=zones),
+                Layer(
+                    material="cold",
+                    law=IdealGas(density=2.0, gamma=5.0 / 3.0, pressure=1e4),
+                    thickness=0.5,
+                    zones=zones,
+                ),
             ],
             Piston(velocity=20.0),
             Piston(velocity=-30.0),
@@ -93,7 +109,9 @@ def _mirror(table: Table, zones: int) -> None:
     back = simulate(_foam_layers(zones)[::-1], Wall(), _pulse(), end=2e-3)
     for name, sign in (("velocity", -1.0), ("strain", 1.0), ("stress", 1.0)):
         a, b = there.last[name], sign * back.last[name][::-1]
-        table.bound(f"mirror: {name}, worst over the largest", float(np.abs(a - b).max() / np.abs(a).max()), 1e-12, ROUND_OFF)
+        table.bound(
+            f"mirror: {name}, worst over the largest", float(np.abs(a - b).max() / np.abs(a).max()), 1e-12, ROUND_OFF
+        )
 
 
 def _galilean(table: Table, zones: int) -> None:
@@ -111,7 +129,12 @@ def _galilean(table: Table, zones: int) -> None:
         moved = [layer.model_copy(update={"velocity": layer.velocity + shift}) for layer in layers]
         at_rest, shifted = simulate(layers, *ends, end=end), simulate(moved, *moved_ends, end=end)
         gap = np.abs(at_rest.last["strain"] - shifted.last["strain"]).max() / np.abs(at_rest.last["strain"]).max()
-        table.bound(f"Galilean shift by ten sound speeds, {name}: ε", float(gap), 1e-9, "the displacements are a few metres larger, and so is their round-off")
+        table.bound(
+            f"Galilean shift by ten sound speeds, {name}: ε",
+            float(gap),
+            1e-9,
+            "the displacements are a few metres larger, and so is their round-off",
+        )
 
 
 def _moving(name: str, law: Law, zones: int, velocity: float) -> Layer:
@@ -133,10 +156,17 @@ def _units(table: Table, zones: int) -> None:
         load = Pressure(pulse=Rectangular(peak=3.6e6 * pressure, duration=1.53e-3 * time))
         run = simulate(Layer(law=law, thickness=length, zones=zones), load, Wall(), end=4e-3 * time)
         fields = run.last
-        results.append((fields["strain"], fields["stress"] / pressure, fields["velocity"] * time / length, run.outcome.cycles))
+        results.append(
+            (fields["strain"], fields["stress"] / pressure, fields["velocity"] * time / length, run.outcome.cycles)
+        )
     for name, a, b in zip(("ε", "σ", "v", "number of steps"), *results, strict=True):
         different = float(np.count_nonzero(np.asarray(a) != np.asarray(b)))
-        table.bound(f"units by powers of two: values of {name} that differ", different, 0.0, "scaling by a power of two is exact")
+        table.bound(
+            f"units by powers of two: values of {name} that differ",
+            different,
+            0.0,
+            "scaling by a power of two is exact",
+        )
 
 
 def _study(table: Table, effort: Effort) -> None:
@@ -150,7 +180,8 @@ def _study(table: Table, effort: Effort) -> None:
 def cases() -> list[Case]:
     """One case."""
     about = (
-        "Energy and momentum over every step of four columns, the mass that the nodes carry, a column the other way round, everything ten "
+        "Energy and momentum over every step of four columns, the mass that the nodes carry, a column the other way "
+        "round, everything ten "
         "sound speeds faster, and other units of length, mass and time."
     )
     return [Case("symmetry", "Conservation and symmetry", about, ROWS, _study)]
