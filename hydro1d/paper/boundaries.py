@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydro1d.paper import foam
-from hydro1d.paper.boundary import Curve, boundary_table, trace_curves
+from hydro1d.paper.boundary import CRITERIA, Curve, boundary_table, trace_curves
 from hydro1d.paper.workshop import (
     BLUE,
     BROWN,
@@ -116,6 +116,7 @@ def figure_6(work: Workshop) -> None:
             "output.history=100",
             **narrow,
         ),
+        foam_curve("Eq. 38 fine", "pulse_tangent.toml", 2 * size.zones),
         foam_curve("Eq. 38", "pulse_tangent.toml", size.zones),
         *(
             foam_curve(
@@ -148,13 +149,17 @@ def figure_6(work: Workshop) -> None:
     limit = (ratio * table["R-P-P-L fully_crushed"] - table["R-P-P-L soft fully_crushed"]) / (ratio - 1.0)
     exact = [foam.eq30(p) for p in pressures]
     made = [*table.columns.values(), Column("Eq. 30", "s", "Eq. 30", exact)]
-    table = work.table("fig06_boundaries", Table([*made, Column("R-P-P-L limit", "s", "extrapolated", limit.tolist())]))
+    made.append(Column("R-P-P-L limit", "s", "extrapolated to infinite stiffness", limit.tolist()))
+    for criterion in CRITERIA:  # first order in the zones
+        finer = 2.0 * table[f"Eq. 38 fine {criterion}"] - table[f"Eq. 38 {criterion}"]
+        made.append(Column(f"Eq. 38 limit {criterion}", "s", "extrapolated to infinitely many zones", finer.tolist()))
+    table = work.table("fig06_boundaries", Table(made))
     _draw_6(work, table)
     _numbers_6(work, table, stiff)
 
 
 def _missing(like: object, count: int) -> list:
-    from hydro1d.paper.boundary import CRITERIA, Point
+    from hydro1d.paper.boundary import Point
 
     return [Point(float("nan"), dict.fromkeys(CRITERIA, float("nan"))) for _ in range(count)]
 
@@ -188,6 +193,9 @@ def _draw_6(work: Workshop, table: Table) -> None:
                 at(f"{name} fully_crushed"), pressure, color=color, ls=style[0], lw=1.4, label=f"{label}: fully crushed"
             )
             ax.plot(at(f"{name} enhanced"), pressure, color=color, ls=style[1], lw=1.4, label=f"{label}: enhanced")
+        ax.plot(
+            at("Eq. 38 limit enhanced"), pressure, "+", color=RED, ms=5, label="the same, zones extrapolated: enhanced"
+        )
         for kind, color in (("reversible", BLUE), ("plastic", ORANGE)):
             ax.plot(
                 at(f"{kind} fully_crushed"),
@@ -240,7 +248,14 @@ def _numbers_6(work: Workshop, table: Table, stiff: float) -> None:
         k = int(np.argmin(np.abs(pressure - target)))
         note = f"at P = {pressure[k] / 1e6:.3g} MPa"
         work.number("6", "critical duration, R-P-P-L", "ms", equations=exact[k] * 1e3, solver=limit[k] * 1e3, note=note)
-        for name in ("Eq. 38", "Eq. 39", *(f"Eq. 38 H={h:g}E" for h in work.size.unloading), "reversible", "plastic"):
+        for name in (
+            "Eq. 38",
+            "Eq. 38 limit",
+            "Eq. 39",
+            *(f"Eq. 38 H={h:g}E" for h in work.size.unloading),
+            "reversible",
+            "plastic",
+        ):
             for criterion in ("fully_crushed", "enhanced"):
                 share = table[f"{name} {criterion}"][k] / exact[k]
                 work.number("6", f"critical duration over Eq. 30, {name}, {criterion}", "1", solver=share, note=note)

@@ -33,6 +33,7 @@ def _continuum(zones: int) -> list[tuple[str, Curve]]:
     for beta, gamma in ((0.6, 0.603), (1.0, 0.5), (1.22, 0.603), (2.44, 0.603), (1.22, 0.4), (1.22, 0.8), (5.0, 0.8)):
         rows.append(own(f"hardening: β = {beta}, γ = {gamma}", *material(beta=beta, gamma=gamma), bracket=(0.5, 2.6)))
     rows += [own(f"modulus: E = {e:g} x 22 MPa", *material(modulus=e * foam.MODULUS)) for e in (0.5, 1.0, 4.0, 16.0)]
+    rows.append(own("unloading: reversible", 'material.foam.unloading="reversible"', bracket=(0.3, 1.8)))
     rows.append(
         ("duration of a run", foam_curve("duration of a run: twice as long", "pulse_tangent.toml", zones, later=2.5))
     )
