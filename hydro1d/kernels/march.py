@@ -253,7 +253,7 @@ def record(
     row[12] = (total - ledger[FIRST_ENERGY] - work) / put_in if put_in > 0.0 else 0.0
     row[13], row[14] = momentum, impulse
     row[15], row[16], row[17] = ledger[PEAK_STRESS], ledger[PEAK_LEFT], ledger[PEAK_RIGHT]
-    row[18], row[19] = fronts(ledger, layers, numbers, displacement, state, coordinate, layer_count, zones)
+    row[18], row[19] = fronts(ledger, layers, numbers, state, coordinate, layer_count, zones)
     row[20] = max(length, 0.0) / crushable if crushable > 0.0 else math.nan
     for k in range(2 * end_places.MEMORY):
         row[21 + k] = memory[k]
@@ -302,48 +302,59 @@ def crushed_strain(constants: Any) -> float:
 
 
 def fronts(
-    ledger: Any, layers: Any, numbers: Any, displacement: Any, state: Any, coordinate: Any, layer_count: int, zones: int
+    ledger: Any, layers: Any, numbers: Any, state: Any, coordinate: Any, layer_count: int, zones: int
 ) -> tuple[float, float]:
-    """Lagrangian positions of the compaction fronts that run from the left and from the right end; NaN where none runs."""
+    """Lagrangian positions of the compaction fronts that run from the left and from the right end; NaN where none runs.
+
+    A layer that cannot be crushed (a plate before the foam) is passed over.
+    """
     left, right = int(ledger[LEFT_FRONT]), int(ledger[RIGHT_FRONT])
-    while left > 0 and not is_crushed(layers, numbers, state, layer_count, left - 1):
+    while left > 0 and not is_passed(layers, numbers, state, layer_count, left - 1):
         left -= 1
-    while left < zones and is_crushed(layers, numbers, state, layer_count, left):
+    while left < zones and is_passed(layers, numbers, state, layer_count, left):
         left += 1
-    while right < zones and not is_crushed(layers, numbers, state, layer_count, right):
+    while right < zones and not is_passed(layers, numbers, state, layer_count, right):
         right += 1
-    while right > 0 and is_crushed(layers, numbers, state, layer_count, right - 1):
+    while right > 0 and is_passed(layers, numbers, state, layer_count, right - 1):
         right -= 1
     ledger[LEFT_FRONT], ledger[RIGHT_FRONT] = left, right
     proximal, distal = math.nan, math.nan
-    if 0 < left < zones:
-        start, end = max(left - WINDOW, 0), min(left + WINDOW, zones)
-        proximal = coordinate[start] + crushed_length(displacement, coordinate, start, end, start, end - 1)
-    if 0 < right < zones:
-        start, end = max(right - WINDOW, 0), min(right + WINDOW, zones)
-        distal = coordinate[end] - crushed_length(displacement, coordinate, start, end, end - 1, start)
+    if left < right:
+        if left > 0 and is_crushed(layers, numbers, state, layer_count, left - 1):
+            start, end = max(left - WINDOW, 0), min(left + WINDOW, right)
+            proximal = coordinate[start] + crushed_length(state, coordinate, start, end, start, end - 1)
+        if right < zones and is_crushed(layers, numbers, state, layer_count, right):
+            start, end = max(right - WINDOW, left), min(right + WINDOW, zones)
+            distal = coordinate[end] - crushed_length(state, coordinate, start, end, end - 1, start)
     return proximal, distal
+
+
+def is_passed(layers: Any, numbers: Any, state: Any, layer_count: int, zone: int) -> bool:
+    """Whether a front has no more to do in a zone: it is crushed, or never can be."""
+    crushed = crushed_strain(offset(numbers, layer_of(layers, layer_count, zone) * NUMBERS))
+    return state[zone] > crushed or crushed == math.inf
 
 
 def is_crushed(layers: Any, numbers: Any, state: Any, layer_count: int, zone: int) -> bool:
     """Whether a zone's largest strain has passed what its layer calls crushed."""
+    return state[zone] > crushed_strain(offset(numbers, layer_of(layers, layer_count, zone) * NUMBERS))
+
+
+def layer_of(layers: Any, layer_count: int, zone: int) -> int:
+    """Number of the layer that a zone belongs to."""
     layer = layer_count - 1
     while layers[layer * LAYER + FIRST_ZONE] > zone:
         layer -= 1
-    return state[zone] > crushed_strain(offset(numbers, layer * NUMBERS))
+    return layer
 
 
-def crushed_length(displacement: Any, coordinate: Any, start: int, end: int, behind: int, ahead: int) -> float:
-    """Σ (ε − ε_A)/(ε_B − ε_A) ΔX over zones: unlike a half level, it does not see how far the front is smeared."""
-    strain_behind = zone_strain(displacement, coordinate, behind)
-    strain_ahead = zone_strain(displacement, coordinate, ahead)
+def crushed_length(state: Any, coordinate: Any, start: int, end: int, behind: int, ahead: int) -> float:
+    """Σ (ε − ε_A)/(ε_B − ε_A) ΔX over zones: unlike a half level, it does not see how far the front is smeared.
+
+    ε is the largest strain so far, so that what happens to a zone behind the front does not move the front.
+    """
     length = 0.0
     for i in range(start, end):
-        share = (zone_strain(displacement, coordinate, i) - strain_ahead) / (strain_behind - strain_ahead)
-        length += share * (coordinate[i + 1] - coordinate[i])
+        share = (state[i] - state[ahead]) / (state[behind] - state[ahead]) if state[behind] > state[ahead] else 0.0
+        length += min(max(share, 0.0), 1.0) * (coordinate[i + 1] - coordinate[i])
     return length
-
-
-def zone_strain(displacement: Any, coordinate: Any, zone: int) -> float:
-    """Engineering strain of a zone."""
-    return (displacement[zone] - displacement[zone + 1]) / (coordinate[zone + 1] - coordinate[zone])
