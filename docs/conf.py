@@ -1,7 +1,7 @@
 """Sphinx: python -m sphinx -W -q -b html docs OUT. Pages are MyST Markdown; tutorials are notebooks, run by the build.
 
-Formulas are drawn by MathJax from its usual address; `-D mathjax_path=FILE` takes a copy of your own, for reading without
-a network.
+Formulas are drawn by MathJax from its usual address; `-D mathjax_path=FILE` takes a copy of your own, for reading
+without a network.
 """
 
 import os
@@ -47,7 +47,7 @@ os.environ["COLUMNS"] = "88"  # the width of the help texts
 
 
 def drop_missing_pages(app, docname, source):
-    """A table of contents may name a page that another tool writes (verification results): left out until it is there."""
+    """A table of contents may name a page that a tool writes (verification results): left out until it is there."""
     lines, inside = [], False
     for line in source[0].split("\n"):
         inside = (inside or "{toctree}" in line) and line.strip() != "```"
@@ -55,6 +55,8 @@ def drop_missing_pages(app, docname, source):
         base = HERE / Path(docname).parent
         if entry is None or any((base / f"{entry}{ending}").exists() for ending in (".md", ".ipynb")):
             lines.append(line)
+        else:
+            app.env.note_reread()  # it may be there at the next build
     source[0] = "\n".join(lines)
 
 

@@ -20,7 +20,7 @@ from hydro1d import load_deck
 from hydro1d.cli import main
 
 KINDS = ("python", "pycon", "toml", "console")
-INSTALLS = ("python3", "pip", ".")  # the README's own commands are tried by continuous integration
+INSTALLS = ("python3", "pip")  # the README's own commands are tried by continuous integration
 READERS = ("ncdump", "h5dump")
 BASE = """
 [material.foam]
@@ -149,7 +149,9 @@ def run(line: str) -> tuple[int, str] | None:
     while re.match(r"[A-Z_0-9]+=", words[0]):
         name, _, value = words.pop(0).partition("=")
         given[name] = value
-    if words[0] in INSTALLS or (words[0] in READERS and shutil.which(words[0]) is None):
+    if words[0] in INSTALLS or words[0].startswith(".venv/"):
+        return None
+    if words[0] in READERS and shutil.which(words[0]) is None:
         return None
     if words[0] == "hydro1d" and not given:
         said = io.StringIO()
