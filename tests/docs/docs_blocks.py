@@ -160,6 +160,8 @@ def run(line: str) -> tuple[int, str] | None:
         return code, said.getvalue()
     if words[0] == "hydro1d":
         words[:1] = [sys.executable, "-m", "hydro1d.cli"]
+    if words[:1] == ["python"] and words[1].startswith("tools/"):
+        words[0] = sys.executable
     assert words[0] in (*READERS, sys.executable), f"unknown command {line!r}"
     done = subprocess.run(
         words, env={**os.environ, **given}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120

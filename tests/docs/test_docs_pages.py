@@ -14,8 +14,9 @@ PAGES = [TOP / "README.md", *sorted((TOP / "docs").glob("*.md"))]
 
 @pytest.mark.parametrize("page", [page for page in PAGES if blocks(page)], ids=lambda page: page.stem)
 def test_blocks_of_a_page(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In order, in a folder of their own that holds the cases."""
-    shutil.copytree(TOP / "cases", tmp_path / "cases")
+    """In order, in a folder of their own that holds the cases and the scripts."""
+    for name in ("cases", "tools"):
+        shutil.copytree(TOP / name, tmp_path / name)
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("HYDRO1D_DEBUG", raising=False)
     session = Session(page)
