@@ -194,7 +194,12 @@ def _draw_6(work: Workshop, table: Table) -> None:
             )
             ax.plot(at(f"{name} enhanced"), pressure, color=color, ls=style[1], lw=1.4, label=f"{label}: enhanced")
         ax.plot(
-            at("Eq. 38 limit enhanced"), pressure, "+", color=RED, ms=5, label="the same, zones extrapolated: enhanced"
+            at("Eq. 38 limit enhanced"),
+            pressure,
+            "+",
+            color=RED,
+            ms=5,
+            label="E-P-P-H, Eq. 38, H = E, zones extrapolated: enhanced",
         )
         for kind, color in (("reversible", BLUE), ("plastic", ORANGE)):
             ax.plot(
