@@ -204,3 +204,24 @@ def test_energy_shares_add_up(folder):
     sweep = Sweep.of(folder / "pulse.toml", [Parameter(key="left.duration", values=("1 ms",))], names)
     table = run_sweep(sweep)
     assert sum(table[name][0] for name in names) == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.slow
+def test_two_threads_are_nearly_twice_as_fast(folder):
+    """On an idle machine; the best of three, since others may be at work."""
+    import time
+
+    from hydro1d.sweep.base import threads_here
+
+    if threads_here() < 2:
+        pytest.skip("one processor")
+    parameters = [Parameter(key="left.peak", first="2 MPa", last="3 MPa", count=40)]
+    sweep = Sweep.of(folder / "pulse.toml", parameters, ["enhancement"], ["layer[0].zones=400"])
+    run_sweep(sweep, threads=1)
+
+    def seconds(threads):
+        begun = time.perf_counter()
+        run_sweep(sweep, threads=threads)
+        return time.perf_counter() - begun
+
+    assert max(seconds(1) / seconds(2) for _ in range(3)) > 1.7
