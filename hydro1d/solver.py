@@ -22,6 +22,7 @@ from hydro1d.state import State
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
 FEWEST_STEPS = 20  # a stretch keeps a copy of its start: not for every step of a huge column
 RETRIES = 3
+SLOWEST_PACE = 1e-4  # of the first step: a zone crushed to next to nothing keeps its stiffness, and the run would never end
 
 
 @dataclass(frozen=True)
@@ -234,7 +235,13 @@ class _Run:
                 break
             self.state.assign(start)
         self.state.ledger[march.CFL] = self.column.cfl
-        return status
+        return march.COLLAPSED if status == march.PAUSED and self.is_stuck(start) else status
+
+    def is_stuck(self, start: State) -> bool:
+        """Whether the steps of a stretch were so short, on the mean, that the end is out of reach."""
+        taken = self.state.cycle - start.cycle
+        pace = (self.state.time - start.time) / max(taken, 1)
+        return taken >= 1000 and pace < SLOWEST_PACE * self.state.ledger[march.FIRST_STEP]
 
     def steps_per_call(self) -> int:
         """So many that the user does not wait and the rows fit; stretches end at fixed cycles, so a restart meets them."""

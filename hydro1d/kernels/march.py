@@ -39,7 +39,7 @@ SCRATCH = zone_places.RESULTS  # where `out` goes on after the answers of a kern
 OUT = SCRATCH + end_places.MEMORY
 WINDOW = 12  # zones on either side of a front that its integral measure takes in
 GROWTH = 1.1  # most by which a step exceeds the one before
-SMALLEST = 1e-6  # of the first step: below, a zone has been crushed to a nothing that would take for ever to follow
+SMALLEST = 1e-12  # of the first step: a mass-spring chain may bounce at 1e-10 of it and come back
 
 
 def march(

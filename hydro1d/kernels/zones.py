@@ -22,6 +22,7 @@ AFRESH = NUMBERS  # not 0 where nothing that `foam_kernel` remembers holds
 STIFFNESS, VISCOUS_SPEED, STRESS, STRAIN, VISCOUS_POWER = range(5)
 RESULTS = 5
 
+FASTEST_CLOSING = 2.0  # a step closes at most a quarter of a zone's room, also where there is no viscosity
 CHUNK = 64  # zones that ask for their loading curve together: few, since one that crushes further makes all ask
 
 _DOC = """Advance ``zones`` zones over a step.
@@ -59,7 +60,8 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             history = gather(state, stride + i, stride, history_count)
             stress, tangent, stiffness, smooth, history = law.point(strain, largest, jump * per_size, now, history)
             closing = max(jump, 0.0) - (shared_jump(velocity, i, jump) if smooth else 0.0)
-            crowding = quadratic * closing / law.room(strain, closing)
+            approach = closing / law.room(strain, closing)
+            crowding = quadratic * approach
             speed = (smooth_linear if smooth else linear) * math.sqrt(tangent * per_density) + crowding
             viscosity = density * closing * speed
             state[i] = largest
@@ -67,7 +69,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             force[i] = stress + viscosity
             power = accumulate(power, viscosity * jump + 0.0 * force[i])
             top_stiffness = larger(top_stiffness, stiffness)
-            top_speed = larger(top_speed, speed + crowding)
+            top_speed = larger(top_speed, speed + max(quadratic, FASTEST_CLOSING) * approach)
             top_stress = larger(top_stress, stress)
             top_strain = larger(top_strain, strain)
         answer(out, top_stiffness * per_density, top_speed, top_stress, top_strain, power)
@@ -148,13 +150,14 @@ def push_zones(
         closing = max(jump, 0.0)
         if limited:
             closing -= shared_jump(velocity, i, jump) if law.never_yielded(state[i]) else 0.0
-        crowding = quadratic * closing / law.room(strain, closing)
+        approach = closing / law.room(strain, closing)
+        crowding = quadratic * approach
         speed = speeds[i] + crowding
         viscosity = density * closing * speed
         force[i] = stress + viscosity
         power = accumulate(power, viscosity * jump + 0.0 * force[i])
         top_stiffness = larger(top_stiffness, stiffnesses[i])
-        top_speed = larger(top_speed, speed + crowding)
+        top_speed = larger(top_speed, speed + max(quadratic, FASTEST_CLOSING) * approach)
     return top_stiffness, top_speed, power
 
 
