@@ -22,9 +22,7 @@ from hydro1d.units import to_si
 
 
 def _parameter(unit: str, description: str, default: Any, **bounds: float) -> Any:
-    return Field(
-        default, allow_inf_nan=False, description=description, json_schema_extra={"unit": unit}, **bounds
-    )  # type: ignore[call-overload]
+    return Field(default, allow_inf_nan=False, description=description, json_schema_extra={"unit": unit}, **bounds)  # type: ignore[call-overload]
 
 
 def number(unit: str = "1", description: str = "", default: Any = ...) -> Any:

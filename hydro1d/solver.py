@@ -22,7 +22,9 @@ from hydro1d.state import State
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
 FEWEST_STEPS = 20  # a stretch keeps a copy of its start: not for every step of a huge column
 RETRIES = 3
-SLOWEST_PACE = 1e-4  # of the first step: a zone crushed to next to nothing keeps its stiffness, and the run would never end
+SLOWEST_PACE = (
+    1e-4  # of the first step: a zone crushed to next to nothing keeps its stiffness, and the run would never end
+)
 
 
 @dataclass(frozen=True)
@@ -267,9 +269,7 @@ class _Run:
     def outcome(self, status: str, message: str = "", zone: int | None = None) -> Outcome:
         """Close the sink's books."""
         self.sink.maxima({"largest_strain": self.state.material[0].copy()})
-        return Outcome(
-            status, self.state.cycle, self.state.time, self.loop_seconds, message, zone, state=self.state
-        )
+        return Outcome(status, self.state.cycle, self.state.time, self.loop_seconds, message, zone, state=self.state)
 
     def broken(self, status: int) -> Outcome:
         """Say which zone broke down, and why."""

@@ -30,7 +30,9 @@ from hydro1d.viscosity import Viscosity
 
 FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
 PLATEAU = FOAM["plateau_stress"]
-HEADER = "law            load          c1   c2   median ε  median σ  worst five  worst rest  peak σ   front/zone  cycles"
+HEADER = (
+    "law            load          c1   c2   median ε  median σ  worst five  worst rest  peak σ   front/zone  cycles"
+)
 
 
 def cases() -> dict:
@@ -44,7 +46,10 @@ def cases() -> dict:
     return {
         "epph": (EPPH(**FOAM, shock_slope=0.00105), analytic.EPPH(*FOAM.values(), 0.00105)),
         "epph-tangent": (tangent, exact_tangent),
-        "table": (Table(density=51.6, modulus=22e6, curve=points), analytic.Table(51.6, 22e6, *(tuple(c) for c in zip(*points[1:], strict=True)))),
+        "table": (
+            Table(density=51.6, modulus=22e6, curve=points),
+            analytic.Table(51.6, 22e6, *(tuple(c) for c in zip(*points[1:], strict=True))),
+        ),
         "rph": (
             RPH(density=51.6, modulus=22e6, plateau_stress=PLATEAU, hardening=0.1e6),
             analytic.RPH(51.6, 22e6, PLATEAU, 0.1e6),
@@ -67,14 +72,18 @@ class Last:
     """Keeps the last profile."""
 
     def profile(self, frame) -> None:
+        """The fields."""
         self.fields = frame.fields
 
     def history(self, rows, probes) -> None:
+        """The last row."""
         self.row = rows[-1]
 
-    def checkpoint(self, state) -> None: ...
+    def checkpoint(self, state) -> None:
+        """Nothing."""
 
-    def maxima(self, zone_maxima) -> None: ...
+    def maxima(self, zone_maxima) -> None:
+        """Nothing."""
 
 
 def run(law, exact, boundary, viscosity: Viscosity, zones: int = 1000, cfl: float = 0.9) -> dict:
@@ -83,7 +92,9 @@ def run(law, exact, boundary, viscosity: Viscosity, zones: int = 1000, cfl: floa
     speed = front.mass_rate / law.density
     end = 0.33 / speed
     layer = SimpleNamespace(material="foam", law=law, thickness=1.0, zones=zones, velocity=0.0)
-    column = build_column([layer], boundary, Transmitting(), end=end, profile_times=[end], history=0, viscosity=viscosity, cfl=cfl)
+    column = build_column(
+        [layer], boundary, Transmitting(), end=end, profile_times=[end], history=0, viscosity=viscosity, cfl=cfl
+    )
     sink = Last()
     outcome = solve(column, sink)
     if outcome.status != "complete":
@@ -112,18 +123,25 @@ def main() -> None:
     parser.add_argument("--laws", nargs="*", default=list(cases()))
     parser.add_argument("--linear", nargs="*", type=float, default=[Viscosity().linear])
     parser.add_argument("--quadratic", nargs="*", type=float, default=[Viscosity().quadratic])
-    parser.add_argument("--pressures", nargs="*", type=float, default=[1.5, 3.0, 4.5, 6.0, 10.0], help="over the plateau")
-    parser.add_argument("--velocities", nargs="*", type=float, default=[30.0, 60.0, 120.0, 250.0], help="of pistons, m/s")
+    parser.add_argument(
+        "--pressures", nargs="*", type=float, default=[1.5, 3.0, 4.5, 6.0, 10.0], help="over the plateau"
+    )
+    parser.add_argument(
+        "--velocities", nargs="*", type=float, default=[30.0, 60.0, 120.0, 250.0], help="of pistons, m/s"
+    )
     parser.add_argument("--zones", type=int, default=1000)
-    parser.add_argument("--cfl", type=float, default=0.9)
+    parser.add_argument("--cfl", type=float, default=0.8)
     chosen = parser.parse_args()
     print(HEADER)
     for (name, (law, curve)), linear, quadratic in itertools.product(cases().items(), chosen.linear, chosen.quadratic):
         if name not in chosen.laws:
             continue
         viscosity = Viscosity(linear=linear, quadratic=quadratic)
-        loads = [(f"p = {p:g}", analytic.pressure_step(curve, p * PLATEAU), Pressure(pulse=Constant(peak=p * PLATEAU)))
-                 for p in chosen.pressures if not (name == "epph" and p > 6)]
+        loads = [
+            (f"p = {p:g}", analytic.pressure_step(curve, p * PLATEAU), Pressure(pulse=Constant(peak=p * PLATEAU)))
+            for p in chosen.pressures
+            if not (name == "epph" and p > 6)
+        ]
         loads += [(f"{v:g} m/s", analytic.piston(curve, v), Piston(velocity=v)) for v in chosen.velocities]
         for label, exact, boundary in loads:
             row = run(law, exact, boundary, viscosity, chosen.zones, chosen.cfl)

@@ -77,14 +77,18 @@ class Foam(Law):
 
     unloading: Literal["elastic", "reversible"] = "elastic"
     unloading_modulus: float | Literal["rigid"] | None = Field(
-        None, description='slope of the unloading line; "rigid" is 100 times the modulus', json_schema_extra={"unit": "Pa"}
+        None,
+        description='slope of the unloading line; "rigid" is 100 times the modulus',
+        json_schema_extra={"unit": "Pa"},
     )
     tension: bool = False
 
     @model_validator(mode="after")
     def _unloads_no_softer_than_it_loads(self) -> Foam:
         if not self.modulus <= self.unloading_stiffness < math.inf:
-            raise ValueError(f"unloading_modulus must be 'rigid' or finite and at least the modulus, {self.modulus:g} Pa")
+            raise ValueError(
+                f"unloading_modulus must be 'rigid' or finite and at least the modulus, {self.modulus:g} Pa"
+            )
         return self
 
     def loading(self, strain: float) -> tuple[float, float]:
@@ -98,7 +102,13 @@ class Foam(Law):
         top = strain if self.is_reversible > 0.0 else largest
         stress, tangent = self.loading(top)
         stiffness = self.slope_below(largest, tangent)
-        return self.stress_below(top - strain, stress, stiffness), tangent, stiffness, self.never_yielded(largest), history
+        return (
+            self.stress_below(top - strain, stress, stiffness),
+            tangent,
+            stiffness,
+            self.never_yielded(largest),
+            history,
+        )
 
     def never_yielded(self, largest: float) -> bool:
         """Whether a point with this largest strain has never yielded."""

@@ -44,6 +44,8 @@ def _check_answer(law: Law, strain: float, answer: tuple, remembered: int) -> No
         if not math.isfinite(value):
             raise ValueError(f"{name} is {value} at strain {strain:g}; it must be finite")
     if tangent < 0.0 or stiffness < 0.0 or (strain == 0.0 and stiffness == 0.0):
-        raise ValueError(f"tangent {tangent:g} and stiffness {stiffness:g} Pa at strain {strain:g} must not be negative")
+        raise ValueError(
+            f"tangent {tangent:g} and stiffness {stiffness:g} Pa at strain {strain:g} must not be negative"
+        )
     if not isinstance(history, tuple) or len(history) != remembered:
         raise ValueError(f"history must be a tuple of {remembered} numbers, as the class declares")

@@ -16,7 +16,7 @@ class RPPL(LinearLocking):
     stiffness: float = positive("1", "slope of the rigid branches, in plateau stresses", default=1000.0)
 
     @derived
-    def modulus(self) -> float:  # type: ignore[override]
+    def modulus(self) -> float:  # type: ignore[misc,override]
         """stiffness × σP, Pa."""
         return self.stiffness * self.plateau_stress
 

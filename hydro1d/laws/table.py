@@ -26,7 +26,7 @@ class Table(Foam):
             raise ValueError("curve needs two points at least besides the origin")
         if not np.isfinite(points).all():
             raise ValueError("curve holds NaN or infinity")
-        if not ((np.diff(points[:, 0]) > 0).all() and 0.0 <= points[0, 0] and points[-1, 0] < 1.0):
+        if not ((np.diff(points[:, 0]) > 0).all() and points[0, 0] >= 0.0 and points[-1, 0] < 1.0):
             raise ValueError("curve must have strains rising from 0 or above to below 1")
         if not ((np.diff(points[:, 1]) >= 0).all() and points[0, 1] >= 0.0 and points[-1, 1] > 0.0):
             raise ValueError("curve must have stresses that do not fall, from 0 or above")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -167,7 +168,8 @@ def at_energy(law, strain, energy):
 
 @pytest.mark.parametrize("cls, change", [
     (EPPH, {"plateau_stress": 22e6}), (EPPH, {"density": 0}), (EPPH, {"modulus": -1}), (EPPH, {"shock_slope": math.nan}),
-    (EPPH, {"densification_strain": 1.0}), (EPPH, {"densification_strain": 0.0}), (EPPH, {"colour": 1}), (EPPH, {"density": True}),
+    (EPPH, {"densification_strain": 1.0}), (EPPH, {"densification_strain": 0.0}), (EPPH, {"colour": 1}),
+    (EPPH, {"density": True}),
 ])  # fmt: skip
 def test_parameters_outside_their_range_are_refused(cls, change):
     with pytest.raises(ValidationError):
@@ -194,10 +196,10 @@ def test_room_shrinks_and_stays_positive(name):
     law = FOAMS[name]
     for closing in (0.0, 1e-3, 10.0, 1e3):
         rooms = [law.room(strain, closing) for strain in np.linspace(0.0, 0.95, 50)]
-        assert all(later <= earlier + 1e-15 for earlier, later in zip(rooms, rooms[1:], strict=False))
+        assert all(later <= earlier + 1e-15 for earlier, later in itertools.pairwise(rooms))
         assert min(rooms) > 0.0
 
 
 def test_a_name_that_nobody_has_is_answered_with_those_there_are():
-    with pytest.raises(ValueError, match="no law is called 'eppph'; there are .*epph-tangent"):
+    with pytest.raises(ValueError, match=r"no law is called 'eppph'; there are .*epph-tangent"):
         find("law", "eppph")

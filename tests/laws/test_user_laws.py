@@ -26,7 +26,13 @@ class Mine(PlateauFoam):
         extra = self.density * (over / self.shock_slope) ** 2 * inverse
         return extra, (2.0 * self.density / self.shock_slope**2 * over - extra) * inverse
 '''
-FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689, "shock_slope": 0.00105}
+FOAM = {
+    "density": 51.6,
+    "modulus": 22e6,
+    "plateau_stress": 0.8e6,
+    "densification_strain": 0.689,
+    "shock_slope": 0.00105,
+}
 DECK = """
 [material.foam]
 law = "{law}"
@@ -67,7 +73,9 @@ def test_a_law_from_a_file_equals_the_built_in(tmp_path):
 def test_an_edit_of_the_file_takes_effect(tmp_path):
     (tmp_path / "mine.py").write_text(SAME_AS_BUILT_IN)
     before = hydro1d.run(deck(tmp_path, "mine.py:Mine"))
-    (tmp_path / "mine.py").write_text(SAME_AS_BUILT_IN.replace("over / self.shock_slope", "1.1 * over / self.shock_slope"))
+    (tmp_path / "mine.py").write_text(
+        SAME_AS_BUILT_IN.replace("over / self.shock_slope", "1.1 * over / self.shock_slope")
+    )
     after = hydro1d.run(deck(tmp_path, "mine.py:Mine"))
     assert abs(before["strain"][-1] - after["strain"][-1]).max() > 0.01
 

@@ -40,12 +40,17 @@ def random_deck(seed: int) -> Table:
 def _law(rng: np.random.Generator) -> Table:
     density, modulus = float(10 ** rng.uniform(1.3, 3)), float(10 ** rng.uniform(6, 9))
     plateau = float(modulus * 10 ** rng.uniform(-2.5, -1))
-    foam: Table = {"density": density, "modulus": modulus, "unloading": str(rng.choice(["elastic", "elastic", "reversible"])),
-                   "tension": bool(rng.integers(0, 2))}
+    foam: Table = {
+        "density": density,
+        "modulus": modulus,
+        "unloading": str(rng.choice(["elastic", "elastic", "reversible"])),
+        "tension": bool(rng.integers(0, 2)),
+    }
     if rng.random() < 0.3:
         foam["unloading_modulus"] = "rigid" if rng.random() < 0.3 else modulus * float(rng.uniform(1, 10))
     dense = {**foam, "plateau_stress": plateau, "densification_strain": float(rng.uniform(0.3, 0.8))}
     rigid = {key: value for key, value in dense.items() if key not in ("modulus", "unloading_modulus")}
+    curve = [[plateau / modulus, plateau], [0.5, 1.1 * plateau], [0.7, 3 * plateau], [0.9, 30 * plateau]]
     laws: list[Table] = [
         {"law": "elastic", "density": density, "modulus": modulus},
         {"law": "ideal-gas", "density": density, "gamma": float(rng.uniform(1.1, 2)), "pressure": plateau},
@@ -56,21 +61,24 @@ def _law(rng: np.random.Generator) -> Table:
         {"law": "rppl", **rigid, "stiffness": float(10 ** rng.uniform(1.5, 3))},
         {"law": "rph", **foam, "plateau_stress": plateau, "hardening": plateau * float(rng.uniform(0.05, 0.5))},
         {"law": "eph", **foam, "yield_stress": plateau, "hardening_modulus": modulus * float(rng.uniform(0.01, 0.5))},
-        {"law": "table", **foam, "curve": [[plateau / modulus, plateau], [0.5, 1.1 * plateau], [0.7, 3 * plateau], [0.9, 30 * plateau]]},
+        {"law": "table", **foam, "curve": curve},
     ]  # fmt: skip
     return laws[int(rng.integers(len(laws)))]
 
 
 def _strength(law: Table) -> float:
     """A stress that the law's material feels."""
-    return float(law.get("plateau_stress", law.get("yield_stress", law.get("pressure", 0.01 * law.get("modulus", 0.0)))))
+    return float(
+        law.get("plateau_stress", law.get("yield_stress", law.get("pressure", 0.01 * law.get("modulus", 0.0))))
+    )
 
 
 def _speed(law: Table) -> float:
     """A wave speed of the law's material, m/s."""
     stiff = law.get("unloading_modulus", 1.0)
     moduli = [law.get("modulus", 0.0), law.get("pressure", 0.0), law.get("locking_modulus", 0.0),
-              100.0 * law.get("modulus", 0.0) if stiff == "rigid" else stiff, _strength(law) * law.get("stiffness", 0.0)]  # fmt: skip
+              100.0 * law.get("modulus", 0.0) if stiff == "rigid" else stiff,
+              _strength(law) * law.get("stiffness", 0.0)]  # fmt: skip
     return math.sqrt(max(moduli) / law["density"])
 
 

@@ -19,7 +19,6 @@ import hydro1d
 from hydro1d.boundaries.free import Free
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.pulses.rectangular import Rectangular
-from hydro1d.boundaries.wall import Wall
 from hydro1d.column import build_column
 from hydro1d.laws.elastic import Elastic
 from hydro1d.solver import solve
@@ -62,7 +61,10 @@ def write_deck(folder: Path, zones=40, end=4e-3, history=5, more="") -> Path:
 def command(*arguments, **options):
     options["env"] = {**options.get("env", os.environ), "PYTHONPATH": str(Path(hydro1d.__file__).parents[1])}
     return subprocess.Popen(
-        [sys.executable, "-m", "hydro1d.cli", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options
+        [sys.executable, "-m", "hydro1d.cli", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        **options,
     )
 
 
@@ -79,7 +81,9 @@ class Nothing:
 
 def ringing(cycles: int) -> np.ndarray:
     """Energy errors along a free elastic bar that rings after a short pulse."""
-    bar = SimpleNamespace(material="bar", law=Elastic(density=1000.0, modulus=1e9), thickness=1.0, zones=50, velocity=0.0)
+    bar = SimpleNamespace(
+        material="bar", law=Elastic(density=1000.0, modulus=1e9), thickness=1.0, zones=50, velocity=0.0
+    )
     pulse = Pressure(pulse=Rectangular(peak=1e6, duration=2e-4))
     step = 0.8 * (1.0 / 50) / 1000.0 / 1.62  # what CFL 0.8 and the default viscosity leave
     column = build_column([bar], pulse, Free(), end=cycles * step, history=max(cycles // 500, 1))
@@ -103,7 +107,9 @@ def arrays_of(run) -> dict[str, np.ndarray]:
 
 def same(one, other) -> bool:
     a, b = arrays_of(one), arrays_of(other)
-    return a.keys() == b.keys() and all(np.array_equal(a[name], b[name], equal_nan=a[name].dtype.kind == "f") for name in a)
+    return a.keys() == b.keys() and all(
+        np.array_equal(a[name], b[name], equal_nan=a[name].dtype.kind == "f") for name in a
+    )
 
 
 def test_the_same_deck_gives_the_same_data_wherever_it_runs(tmp_path):
@@ -125,9 +131,10 @@ def test_the_same_deck_gives_the_same_data_wherever_it_runs(tmp_path):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_leaves_a_checkpoint_and_a_readable_file(tmp_path, number):
-    deck = write_deck(tmp_path, zones=1000, end=0.05, history=100)
+    deck = write_deck(tmp_path, zones=1000, end=0.5, history=1000, more="[checkpoint]\ncycles = 5000\n")
     running = command("run", deck, "-o", tmp_path / "run.h5")
-    time.sleep(2.5)
+    while not list(tmp_path.glob("run.checkpoint-*.h5")) and running.poll() is None:  # until it is under way
+        time.sleep(0.05)
     running.send_signal(number)
     asked = time.monotonic()
     _, errors = running.communicate(timeout=60)
@@ -136,8 +143,8 @@ def test_a_signal_leaves_a_checkpoint_and_a_readable_file(tmp_path, number):
     assert b"Traceback" not in errors and b"interrupted" in errors
     assert not (tmp_path / "run.h5").exists()
     assert hydro1d.open_run(tmp_path / "run.partial.h5").status == "interrupted"
-    [checkpoint] = tmp_path.glob("run.checkpoint-*.h5")
-    print(f"stopped {waited:.2f} s after the signal; {checkpoint.name}")
+    assert 1 <= len(list(tmp_path.glob("run.checkpoint-*.h5"))) <= 2
+    print(f"stopped {waited:.2f} s after the signal")
 
 
 def kill_and_restart(folder: Path, deck: Path, whole, seconds: float) -> str:
@@ -208,7 +215,9 @@ def resident() -> float:
 @pytest.mark.parametrize("home", ["no home", pytest.param("read-only cache", marks=pytest.mark.slow)])
 def test_a_run_needs_no_home_and_no_cache(tmp_path, home):
     deck = write_deck(tmp_path)
-    environment = {key: value for key, value in os.environ.items() if key not in ("HOME", "XDG_CACHE_HOME", "HYDRO1D_CACHE_DIR")}
+    environment = {
+        key: value for key, value in os.environ.items() if key not in ("HOME", "XDG_CACHE_HOME", "HYDRO1D_CACHE_DIR")
+    }
     if home == "read-only cache":
         environment["HYDRO1D_CACHE_DIR"] = "/proc/nowhere"
     else:

@@ -77,7 +77,7 @@ def test_the_mirror_image_is_equal_to_the_last_bit():
 
 
 def test_a_layer_cut_in_two_is_the_same_layer():
-    whole, kept = run([layer(FOAM, 1.0, 128)], end=6e-3, profile_times=[6e-3])
+    _, kept = run([layer(FOAM, 1.0, 128)], end=6e-3, profile_times=[6e-3])
     _, cut = run([layer(FOAM, 0.25, 32), layer(FOAM, 0.75, 96)], end=6e-3, profile_times=[6e-3])
     for name, values in kept.frames[-1].fields.items():
         assert np.array_equal(values, cut.frames[-1].fields[name]), name

@@ -17,7 +17,9 @@ def test_from_any_checkpoint_on_everything_is_the_same():
     for left in (PULSE, Striker(mass=3.0, velocity=90.0)):
         _, whole = run([layer(FOAM, 1.0, 60)], left, Wall(), checkpoints=plan, **options)
         _, plain = run([layer(FOAM, 1.0, 60)], left, Wall(), **options)
-        assert np.array_equal(np.concatenate(whole.rows), np.concatenate(plain.rows), equal_nan=True)  # a checkpoint changes no step
+        assert np.array_equal(
+            np.concatenate(whole.rows), np.concatenate(plain.rows), equal_nan=True
+        )  # a checkpoint changes no step
         assert len(whole.states) > 3
         for state in whole.states:
             saved = State.from_arrays({name: array.copy() for name, array in state.arrays().items()})

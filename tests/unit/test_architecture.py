@@ -10,7 +10,18 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "hydro1d"
-SOLVE_PATH = ["api.py", "column.py", "solver.py", "state.py", "viscosity.py", "laws", "boundaries", "kernels", "deck", "store"]
+SOLVE_PATH = [
+    "api.py",
+    "column.py",
+    "solver.py",
+    "state.py",
+    "viscosity.py",
+    "laws",
+    "boundaries",
+    "kernels",
+    "deck",
+    "store",
+]
 
 
 def imports(path: Path) -> set[str]:
@@ -49,7 +60,10 @@ def test_numba_is_known_to_the_kernels_alone(path):
         if isinstance(node, ast.Import | ast.ImportFrom)
         for alias in node.names
     }
-    assert not any(name.split(".")[0] in ("numba", "llvmlite") for name in names) or path.parent.name in ("bench", "cli")
+    assert not any(name.split(".")[0] in ("numba", "llvmlite") for name in names) or path.parent.name in (
+        "bench",
+        "cli",
+    )
 
 
 def test_a_warm_run_loads_neither_compiler_nor_plots(tmp_path):

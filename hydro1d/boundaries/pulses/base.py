@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 
@@ -46,5 +47,5 @@ def check_times(table: Sequence[Sequence[float]]) -> None:
     if not all(math.isfinite(number) for row in table for number in row):
         raise ValueError("table holds NaN or infinity")
     times = [row[0] for row in table]
-    if times[0] < 0.0 or any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
+    if times[0] < 0.0 or any(later <= earlier for earlier, later in itertools.pairwise(times)):
         raise ValueError("table must have times that rise strictly from 0 or above")
