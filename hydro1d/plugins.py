@@ -6,6 +6,7 @@ folder of its kind; the file's name is the deck's word), an entry point in the g
 
 from __future__ import annotations
 
+import functools
 import importlib
 import pkgutil
 import sys
@@ -55,6 +56,7 @@ def available(kind: str) -> dict[str, Callable[[], type[Component]]]:
     return loaders
 
 
+@functools.cache
 def builtin_names(kind: str) -> list[str]:
     """Names of the laws, boundaries or pulses that come with hydro1d."""
     package = importlib.import_module(_KINDS[kind][0])

@@ -7,6 +7,7 @@ Here a kernel's file is named after the content of everything that went into it,
 from __future__ import annotations
 
 import ctypes
+import functools
 import hashlib
 import os
 import re
@@ -57,6 +58,7 @@ def function(where: int, signature: str) -> Callable:
     return ctypes.CFUNCTYPE(None, *(_CTYPES[letter] for letter in signature))(where)
 
 
+@functools.cache
 def fingerprint(component: type[Component]) -> str:
     """A digest of the code of a component: its methods, the functions they call and the constants they use."""
     parts: list[str] = []
@@ -91,17 +93,12 @@ def _digest(code: FunctionType | CodeType, parts: list[str], seen: set[int]) -> 
             parts.append(f"{name}={value!r}")
 
 
+@functools.cache
 def _environment() -> str:
     """Everything about this machine and installation that machine code depends on."""
-    global _kernel_sources
-    if _kernel_sources is None:
-        sources = sorted(Path(__file__).parent.glob("*.py"))
-        _kernel_sources = hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()
-    features = llvm.get_host_cpu_features().flatten()
-    return f"{_kernel_sources} {llvmlite.__version__} {sys.version} {llvm.get_host_cpu_name()} {features}"
-
-
-_kernel_sources: str | None = None
+    sources = sorted(Path(__file__).parent.glob("*.py"))
+    digest = hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()
+    return f"{digest} {llvmlite.__version__} {sys.version} {llvm.get_host_cpu_name()} {_features()}"
 
 
 def _machine() -> Any:
