@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from hydro1d.kernels import march
+from hydro1d.kernels.memory import placed
 
 
 @dataclass
@@ -27,6 +28,12 @@ class State:
     material: np.ndarray
     memory: np.ndarray
     numbers: np.ndarray
+
+    def __post_init__(self) -> None:
+        # The node pass goes through displacements and velocities in whole cache lines from node 1 on.
+        starts = {"velocity": 2, "displacement": 1, "energy": 0, "force": 0, "material": 0}
+        for place, (name, first) in enumerate(starts.items()):
+            setattr(self, name, placed(getattr(self, name), place, first))
 
     def arrays(self) -> dict[str, np.ndarray]:
         """Every array by name, as a checkpoint stores them."""

@@ -152,7 +152,8 @@ def _with_entry(code: str, native: str, signature: str) -> str:
     kinds = ["i64" if letter == "i" else "ptr noalias" for letter in signature]
     declared = ", ".join(f"{kind} %a{k}" for k, kind in enumerate(kinds))
     passed = ", ".join(f"{kind.split()[0]} %a{k}" for k, kind in enumerate(kinds))
-    flush, restore, declarations = _FLUSH if "x86_64" in llvm.get_process_triple() else ("", "", "")
+    flushes = "q" in signature and "x86_64" in llvm.get_process_triple()  # the time loop, which calls the others
+    flush, restore, declarations = _FLUSH if flushes else ("", "", "")
     return f"""{code}
 {declarations}
 define void @kernel({declared}) {{

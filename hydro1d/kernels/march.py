@@ -12,10 +12,11 @@ from typing import Any
 
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
+from hydro1d.kernels.memory import LINE
 from hydro1d.kernels.primitives import accumulate, call, offset
 
 # p: pointer to double, q: to integers, i: integer
-SIGNATURE = "pqq" + 18 * "p" + "qpp" + "iii"
+SIGNATURE = "pqq" + 19 * "p" + "qpp" + "iii"
 
 # Places in the ledger: the scalars of the state, then what this call is to do, then what it answers.
 TIME, LAST_STEP, FREE_STEP, NEXT_STEP, CYCLE = range(5)
@@ -58,6 +59,7 @@ def march(
     force: Any,
     state: Any,
     curve: Any,
+    tangents: Any,
     stiffnesses: Any,
     speeds: Any,
     mass: Any,
@@ -90,7 +92,7 @@ def march(
             numbers[layer * NUMBERS + zone_places.KICK] = kick
             numbers[layer * NUMBERS + zone_places.AFRESH] = 1.0 if taken == 0 else 0.0  # the kernels remember their curves
         stable, speed, layer = sweep(ledger, layers, addresses, parameters, numbers, out, before, after, displacement,
-                                     energy, force, state, curve, stiffnesses, speeds, inverse_mass, layer_count, zones, kick, step)
+                                     energy, force, state, curve, tangents, stiffnesses, speeds, inverse_mass, layer_count, zones, kick, step)
         before, after = after, before
         swapped = not swapped
         taken += 1
@@ -150,13 +152,13 @@ def kick_ends(
 
 def sweep(
     ledger: Any, layers: Any, addresses: Any, parameters: Any, numbers: Any, out: Any, before: Any, after: Any,
-    displacement: Any, energy: Any, force: Any, state: Any, curve: Any, stiffnesses: Any, speeds: Any, inverse_mass: Any, layer_count: int, zones: int, kick: float,
+    displacement: Any, energy: Any, force: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, inverse_mass: Any, layer_count: int, zones: int, kick: float,
     step: float,
 ) -> tuple[float, float, int]:
     """Node phase and zone phase, block by block from left to right.
 
-    The node pass runs ahead of the zone pass by the two nodes that the last zone's limiter looks at; going right, it never
-    meets a force that is already new. Returns the largest stable step, the largest strain and the layer that limits.
+    The node pass runs ahead of the zone pass by the two nodes that the last zone's limiter looks at, and on to the end of a
+    cache line; going right, it never meets a force that is already new. Returns the largest stable step, the largest strain and the layer that limits.
     """
     displacement[0] += step * after[1]
     displacement[zones] += step * after[zones + 1]
@@ -168,7 +170,7 @@ def sweep(
         stiffness, speed = 0.0, 0.0
         for start in range(first, last, BLOCK):
             end = min(start + BLOCK, last)
-            ahead = min(end + 2, zones)
+            ahead = min((end + 1) // LINE * LINE + LINE + 1, zones)
             for i in range(node, ahead):
                 after[i + 1] = before[i + 1] + kick * (force[i - 1] - force[i]) * inverse_mass[i]
                 displacement[i] += step * after[i + 1]
@@ -177,7 +179,7 @@ def sweep(
             after[zones + 2] = 2.0 * after[zones + 1] - after[zones]
             call(addresses, layer, offset(parameters, layers[layer * LAYER + PARAMETERS]), constants, offset(after, start),
                  offset(before, start), offset(displacement, start), offset(energy, start), offset(force, start),
-                 offset(state, start), offset(curve, start), offset(stiffnesses, start), offset(speeds, start), end - start, zones, out)
+                 offset(state, start), offset(curve, start), offset(tangents, start), offset(stiffnesses, start), offset(speeds, start), end - start, zones, out)
             # `not <=` and not `>`: a NaN must win.
             if not out[zone_places.STIFFNESS] <= stiffness:
                 stiffness = out[zone_places.STIFFNESS]
@@ -262,7 +264,7 @@ def record(
         constants, share, probe = offset(numbers, layer * NUMBERS), probe_weights[k], offset(probe_row, 4 * k)
         observed = offset(out, SCRATCH)
         call(addresses, layer, offset(parameters, layers[layer * LAYER + PARAMETERS]), constants, offset(velocity, zone),
-             offset(velocity, zone), offset(displacement, zone), offset(energy, zone), observed, offset(state, zone), out, out, out, -1,
+             offset(velocity, zone), offset(displacement, zone), offset(energy, zone), observed, offset(state, zone), out, out, out, out, -1,
              zones, out)
         probe[3] = observed[0]
         probe[2] = (displacement[zone] - displacement[zone + 1]) * constants[zone_places.INVERSE_SIZE]

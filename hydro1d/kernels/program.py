@@ -11,6 +11,7 @@ from hydro1d.column import Column
 from hydro1d.kernels import build, march, records
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
+from hydro1d.kernels.memory import placed
 from hydro1d.laws.base import Foam
 from hydro1d.parameters import Component
 from hydro1d.state import State
@@ -36,9 +37,9 @@ class Program:
             row[march.FIRST_ZONE], row[march.ZONES] = slab.first, slab.zones
         self.parameters = np.concatenate(parameters)
         self.out = np.zeros(march.OUT)
-        self.spare = np.zeros(zones + 3)
-        self.curve, self.stiffnesses, self.speeds = np.zeros(zones), np.zeros(zones), np.zeros(zones)
-        self.inverse_mass = 1.0 / column.node_mass
+        self.spare = placed(np.zeros(zones + 3), 5, 2)
+        self.inverse_mass = placed(1.0 / column.node_mass, 6, 1)
+        self.curve, self.tangents, self.stiffnesses, self.speeds = (placed(np.zeros(zones), 7 + k) for k in range(4))
         self.end_numbers = np.zeros((2, march.END))
         self.columns = len(column.history_variables) - _remembered(column) + 2 * end_places.MEMORY
         self.row_capacity = row_capacity
@@ -67,7 +68,7 @@ class Program:
         arrays = (
             ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
             state.velocity, self.spare, state.displacement, state.energy, state.force, state.material, self.curve,
-            self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table,
+            self.tangents, self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table,
             self.probe_weights, self.probe_rows,
         )  # fmt: skip
         self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
@@ -93,7 +94,7 @@ class Program:
         arrays = (
             self.parameters[self.layers[layer, march.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
             state.velocity[first:], state.displacement[first:], state.energy[first:], force[first:],
-            state.material.reshape(-1)[first:], self.curve[first:],
+            state.material.reshape(-1)[first:], self.curve[first:], self.tangents[first:],
             self.stiffnesses[first:], self.speeds[first:],
         )  # fmt: skip
         out = np.zeros(march.OUT)

@@ -12,7 +12,7 @@ from typing import Any
 from hydro1d.kernels.primitives import accumulate, gather, larger, scatter
 
 # p: pointer to double, i: integer
-SIGNATURE = "pppppppppppiip"
+SIGNATURE = "ppppppppppppiip"
 
 # Places in `numbers`, the scalars of a call ...
 STEP, KICK, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, SMOOTH_LINEAR, QUADRATIC = range(8)
@@ -29,8 +29,8 @@ _DOC = """Advance ``zones`` zones over a step.
 
 velocity, velocity_before (node i at i + 1; at n + ½ and n − ½) and displacement (new) are over nodes; energy (specific) and
 force (σ + q) over zones; state holds the largest strain and then the law's history, each `stride` long.
-curve, stiffnesses and speeds are what `foam_kernel` remembers: stress on the loading curve, stiffness, speed of the linear
-viscosity. The number of zones is negative to observe: `force` becomes the stress alone, nothing else changes. A NaN anywhere
+curve, tangents, stiffnesses and speeds are what `foam_kernel` remembers: stress and tangent of the loading curve, stiffness,
+speed of the linear viscosity. The number of zones is negative to observe: `force` becomes the stress alone, nothing else changes. A NaN anywhere
 comes back as the stiffness.
 """
 
@@ -40,7 +40,8 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
 
     def sweep(
         parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
-        state: Any, curve: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int, out: Any,
+        state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
+        out: Any,
     ) -> None:  # fmt: skip
         law = unpack(parameters)
         if zones < 0:
@@ -87,34 +88,33 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
 
     def sweep(
         parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
-        state: Any, curve: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int, out: Any,
+        state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
+        out: Any,
     ) -> None:  # fmt: skip
         law = unpack(parameters)
         if zones < 0:
             observe(law, history_count, numbers, velocity, displacement, energy, force, state, -zones, stride)
             return
         per_size, per_density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY]
-        linear, smooth_linear = numbers[LINEAR], numbers[SMOOTH_LINEAR]
         top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
         for start in range(0, zones, CHUNK):
             end = min(start + CHUNK, zones)
-            grown, smooth = int(numbers[AFRESH]), 0
+            grown = turned = int(numbers[AFRESH])
+            smooth = 0
             for i in range(start, end):
                 grown |= int((displacement[i] - displacement[i + 1]) * per_size > state[i])
                 smooth |= int(law.never_yielded(state[i]))
             if grown != 0:
-                for i in range(start, end):
+                for i in range(start, end):  # a loop of its own: it vectorises where the law's functions do
                     state[i] = max(state[i], (displacement[i] - displacement[i + 1]) * per_size)
-                    curve[i], stiffnesses[i] = law.loading(state[i])
-                for i in range(start, end):
-                    linear_here = smooth_linear if law.never_yielded(state[i]) else linear
-                    speeds[i] = linear_here * math.sqrt(stiffnesses[i] * per_density)
-                    stiffnesses[i] = law.slope_below(state[i], stiffnesses[i])
+                    stress, tangent = law.loading(state[i])
+                    turned |= int(tangent != tangents[i])
+                    curve[i], tangents[i] = stress, tangent
                     # No zone's stress is ever above its loading curve, nor its strain above its largest.
                     top_stress = larger(top_stress, curve[i])
                     top_strain = larger(top_strain, state[i])
             stiffness, speed, work = push(law, numbers, velocity, velocity_before, displacement, energy, force, state,
-                                          curve, stiffnesses, speeds, start, end, smooth)  # fmt: skip
+                                          curve, tangents, stiffnesses, speeds, start, end, smooth, turned)  # fmt: skip
             top_stiffness, top_speed, power = larger(top_stiffness, stiffness), larger(top_speed, speed), power + work
         answer(out, top_stiffness * per_density, top_speed, top_stress, top_strain, power)
 
@@ -124,25 +124,38 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
 
 def push(
     law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any, state: Any,
-    curve: Any, stiffnesses: Any, speeds: Any, start: int, end: int, smooth: int,
+    curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int, smooth: int, turned: int,
 ) -> tuple[float, float, float]:  # fmt: skip
-    """Energy and force of zones whose loading curve is known; the limiter only where there is smooth flow at all."""
+    """Energy and force of zones whose loading curve is known: a loop without limiter or square root where none needs them."""
+    if smooth != 0 and turned != 0:
+        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
+                          stiffnesses, speeds, start, end, True, True)  # fmt: skip
     if smooth != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, stiffnesses,
-                          speeds, start, end, True)  # fmt: skip
-    return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, stiffnesses,
-                      speeds, start, end, False)  # fmt: skip
+        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
+                          stiffnesses, speeds, start, end, True, False)  # fmt: skip
+    if turned != 0:
+        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
+                          stiffnesses, speeds, start, end, False, True)  # fmt: skip
+    return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
+                          stiffnesses, speeds, start, end, False, False)  # fmt: skip
 
 
 def push_zones(
     law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any, state: Any,
-    curve: Any, stiffnesses: Any, speeds: Any, start: int, end: int, limited: bool,
+    curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int, limited: bool, turned: bool,
 ) -> tuple[float, float, float]:  # fmt: skip
-    """The loop of `push`. Returns the largest stiffness, the largest viscous speed and the work of the viscosity."""
+    """The loop of `push`. Where the tangent of the loading curve has changed, so do stiffness and speed.
+
+    Returns the largest stiffness, the largest viscous speed and the work of the viscosity.
+    """
     per_size, density, quadratic = numbers[INVERSE_SIZE], numbers[DENSITY], numbers[QUADRATIC]
+    linear, smooth_linear, per_density = numbers[LINEAR], numbers[SMOOTH_LINEAR], numbers[INVERSE_DENSITY]
     to_kick, _ = work_factors(numbers)
     top_stiffness, top_speed, power = 0.0, 0.0, 0.0
     for i in range(start, end):
+        if turned:
+            speeds[i] = (smooth_linear if law.never_yielded(state[i]) else linear) * math.sqrt(tangents[i] * per_density)
+            stiffnesses[i] = law.slope_below(state[i], tangents[i])
         jump = velocity[i + 1] - velocity[i + 2]
         energy[i] += force[i] * to_kick * (velocity_before[i + 1] - velocity_before[i + 2] + jump)
         strain = (displacement[i] - displacement[i + 1]) * per_size

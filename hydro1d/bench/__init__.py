@@ -1,0 +1,1 @@
+"""How fast is it: hydro1d beside a C reference, plain numpy and what the memory allows."""
