@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from hydro1d.boundaries.base import Boundary
 from hydro1d.column import Column
 from hydro1d.kernels import build, march, records
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.memory import placed
-from hydro1d.laws.base import Foam
+from hydro1d.laws.base import Foam, Law
 from hydro1d.parameters import Component
 from hydro1d.state import State
 
@@ -50,7 +51,7 @@ class Program:
 
     def _bind(self) -> None:
         slabs = self.column.slabs
-        kernels = [zone_function(slab.law) for slab in slabs] + [end_function(c) for c in self._components[-2:]]
+        kernels = [zone_function(slab.law) for slab in slabs] + [end_function(end) for end in (self.column.left, self.column.right)]
         if build.interpreted():
             self._zone_functions: list[Callable] = [kernel for kernel, _ in kernels[: len(slabs)]]
             self.addresses: Any = [kernel for kernel, _ in kernels]
@@ -126,7 +127,7 @@ def _locate_probes(column: Column) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([[len(zones)], table.reshape(-1)]), np.asarray(weights, dtype=float)
 
 
-def zone_function(law: Component) -> tuple[Callable, int]:
+def zone_function(law: Law) -> tuple[Callable, int]:
     """The zone kernel of a law: as Python where kernels are interpreted, else its address."""
     factory = zone_places.foam_kernel if _keeps_its_curve(law) else zone_places.zone_kernel
     return _component_kernel(factory.__name__, factory, zone_places.SIGNATURE, law, len(type(law).history))
@@ -137,7 +138,7 @@ def _keeps_its_curve(law: Component) -> bool:
     return isinstance(law, Foam) and type(law).point is Foam.point and not law.is_reversible and not law.history
 
 
-def end_function(boundary: Component) -> tuple[Callable, int]:
+def end_function(boundary: Boundary) -> tuple[Callable, int]:
     """The kick of a boundary, likewise."""
     return _component_kernel("end", end_places.end_kernel, end_places.SIGNATURE, boundary, len(type(boundary).memory))
 

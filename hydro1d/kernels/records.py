@@ -14,7 +14,7 @@ def members(component: Component) -> dict[str, Any]:
     names = list(type(component).model_fields)
     for base in reversed(type(component).__mro__):
         names += [name for name, item in vars(base).items() if isinstance(item, derived) and name not in names]
-    found = {}
+    found: dict[str, Any] = {}
     for name in names:
         value = getattr(component, name)
         if isinstance(value, Component):

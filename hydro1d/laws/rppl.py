@@ -15,8 +15,8 @@ class RPPL(LinearLocking):
 
     stiffness: float = positive("1", "slope of the rigid branches, in plateau stresses", default=1000.0)
 
-    @derived
-    def modulus(self) -> float:  # type: ignore[misc,override]
+    @derived  # type: ignore[misc]
+    def modulus(self) -> float:
         """stiffness × σP, Pa."""
         return self.stiffness * self.plateau_stress
 
