@@ -7,6 +7,7 @@ Here a kernel's file is named after the content of everything that went into it,
 from __future__ import annotations
 
 import ctypes
+import dis
 import functools
 import hashlib
 import os
@@ -85,7 +86,8 @@ def _digest(code: FunctionType | CodeType, parts: list[str], seen: set[int]) -> 
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
             _digest(constant, parts, seen)
-    for name in code.co_names:
+    # Globals alone: an attribute may well be called like one that has nothing to do with it.
+    for name in sorted({step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL"}):
         value = scope.get(name)
         if isinstance(value, FunctionType):
             _digest(value, parts, seen)

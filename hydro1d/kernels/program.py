@@ -111,7 +111,10 @@ class Program:
 
 
 def _pointers(arrays: tuple) -> tuple:
-    return arrays if build.interpreted() else tuple(array.ctypes.data for array in arrays)
+    """Addresses of the arrays, or, where kernels run as Python, the arrays as a pointer sees them: flat."""
+    if build.interpreted():
+        return tuple(array.reshape(-1) if isinstance(array, np.ndarray) else array for array in arrays)
+    return tuple(array.ctypes.data for array in arrays)
 
 
 def _remembered(column: Column) -> int:
