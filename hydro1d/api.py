@@ -80,10 +80,11 @@ def run(
     sink = Hdf5Sink.resume(checkpoint, *arguments) if checkpoint is not None else Hdf5Sink(*arguments)
     with sink, interruptible() as asked:
         outcome = solve(column, sink, state, checkpoints=plan, progress=_share(column, progress), asked_to_stop=asked)
+        saved = None
         if outcome.status == "interrupted" and outcome.state is not None:
-            sink.checkpoint(outcome.state)
+            saved = sink.checkpoint(outcome.state)
         written = sink.finish(outcome.status, outcome.cycles, outcome.wall_seconds, **_closing(column, outcome))
-    _raise_unless_complete(outcome, written)
+    _raise_unless_complete(outcome, written, saved)
     from hydro1d.store import open_run
 
     return open_run(written)
@@ -132,10 +133,11 @@ def _share(column: Column, progress: Callable[[float], None] | None) -> Callable
     return lambda state: progress(Share(min(state.time / column.end_time, 1.0), state.time, state.cycle))
 
 
-def _raise_unless_complete(outcome: Outcome, written: Path | None) -> None:
+def _raise_unless_complete(outcome: Outcome, written: Path | None, saved: Path | None = None) -> None:
     where = f"\n  what there is: {written}" if written is not None else ""
+    onward = f"\n  to go on: hydro1d run … --restart {saved}" if saved is not None else ""
     if outcome.status == "failed":
         zone = -1 if outcome.zone is None else outcome.zone
         raise BreakdownError(outcome.message + where, zone, outcome.time, outcome.cycles)
     if outcome.status == "interrupted":
-        raise Interrupted(f"interrupted at t = {outcome.time:.6g} s, cycle {outcome.cycles}; checkpoint written{where}")
+        raise Interrupted(f"interrupted at t = {outcome.time:.6g} s, cycle {outcome.cycles}{where}{onward}")

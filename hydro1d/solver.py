@@ -45,7 +45,7 @@ class Sink(Protocol):
     def history(self, rows: np.ndarray, probes: np.ndarray) -> None:
         """Take rows of history (rows, columns) and of probes (rows, probes, 4)."""
 
-    def checkpoint(self, state: State) -> None:
+    def checkpoint(self, state: State) -> object:
         """Take a state to restart from; everything up to its time has been handed over."""
 
     def maxima(self, zone_maxima: dict[str, np.ndarray]) -> None:

@@ -57,6 +57,11 @@ def _guarded(arguments: list[str]) -> int:
         return _complain("not enough memory for what this deck asks", BROKEN_DOWN)
     except Exception as error:
         return _explained(error)
+    except BaseException as error:
+        # Ctrl-C while a compiled library is being imported reaches us as that library's own panic.
+        if type(error).__name__ != "PanicException":
+            raise
+        return _complain("interrupted", INTERRUPTED)
 
 
 def _explained(error: Exception) -> int:

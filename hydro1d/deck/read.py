@@ -24,6 +24,8 @@ def read_text(path: Path) -> str:
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         reason = getattr(error, "strerror", None) or str(error)
         raise FileProblem(f"the deck {str(path)[:300]!r} cannot be read: {reason}") from None
+    if raw.startswith(b"\x89HDF"):
+        raise DeckError(f"{path} is a result (HDF5), not a deck; hydro1d plot and hydro1d report take it")
     if len(raw) > LARGEST_DECK:
         raise DeckError(f"{path}: larger than {LARGEST_DECK // 1024} kB; put long tables into CSV files")
     try:

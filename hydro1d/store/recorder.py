@@ -63,5 +63,5 @@ class Recorder:
     def relieve(self) -> None:
         """Called while many records are copied: memory may be freed."""
 
-    def checkpoint(self, state: Any) -> None:
+    def checkpoint(self, state: Any) -> Any:
         """A checkpoint is due; nothing to do where nothing is kept on disk."""

@@ -102,7 +102,7 @@ class Hdf5Sink(Recorder):
         if sum(table.nbytes() for table in self.tables) > self._buffer_bytes:
             self._drain()
 
-    def checkpoint(self, state: Any) -> None:
+    def checkpoint(self, state: Any) -> Path:
         """Write `NAME.checkpoint-<cycle>.h5`: all records and `state.arrays()`; keeps the last two of this run."""
         arrays = {name: np.asarray(value) for name, value in state.arrays().items()}
         target = files.sibling(self.path, f"checkpoint-{int(state.cycle)}")
@@ -113,6 +113,7 @@ class Hdf5Sink(Recorder):
             with contextlib.suppress(OSError):
                 old.unlink()
         self._checkpoints = self._checkpoints[-KEPT_CHECKPOINTS:]
+        return target
 
     def maxima(self, zone_maxima: Mapping[str, np.ndarray]) -> None:
         """Largest strain and stress of each zone, at the end."""
