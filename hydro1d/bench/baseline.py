@@ -44,6 +44,7 @@ class Baseline:
         s.displacement += step * velocity
         self._zones(s, before, velocity, step, kick)
         s.velocity[1:-1] = velocity
+        s.velocity[0], s.velocity[-1] = 2.0 * velocity[0] - velocity[1], 2.0 * velocity[-1] - velocity[-2]
         g[march.TIME] += step
         g[march.LAST_STEP] = step
 

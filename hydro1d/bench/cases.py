@@ -37,8 +37,9 @@ def laws(name: str) -> list[Law]:
         return [EPPH(**FOAM, shock_slope=0.00105)]
     if name == "epph-tangent":
         return [tangent]
+    rph = RPH(density=51.6, modulus=22e6, plateau_stress=0.8e6, hardening=0.1e6)
     if name == "rph":
-        return [RPH(density=51.6, modulus=22e6, plateau_stress=0.8e6, hardening=0.1e6)]
+        return [rph]
     if name == "table":
         strains = [0.8 / 22.0, *np.linspace(0.689, 0.985, 40).tolist()]
         return [Table(density=51.6, modulus=22e6, curve=tuple((e, tangent.loading(e)[0]) for e in strains))]
@@ -46,7 +47,7 @@ def laws(name: str) -> list[Law]:
         return [IdealGas(density=1.2, gamma=1.4, pressure=1e5)]
     if name == "user law":
         return [power]
-    return [EPPH(**FOAM, shock_slope=0.00105), power, tangent]
+    return [tangent, power, rph]
 
 
 def column(name: str, zones: int, *, end: float = 1.0, history: int = 0, **output: object) -> Column:

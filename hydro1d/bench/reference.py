@@ -111,7 +111,7 @@ class Reference:
         elif isinstance(law, RPH):
             layer.a = law.hardening
         elif isinstance(law, PowerFoam):
-            layer.a, layer.b = law.hardening, law.exponent
+            layer.a, layer.b, layer.c = law.hardening, law.exponent, law.plateau_stress / law.modulus
         elif isinstance(law, Table):
             layer.points = law.segments
             for name in _TABLES:

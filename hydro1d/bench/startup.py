@@ -32,8 +32,8 @@ type = "wall"
 [time]
 end = 8e-3
 """
-OUTPUT = '[output]\nprofiles = 200\nhistory = 10\nprobes = [0.25, 0.5]\n'
-BARE = "[output]\nprofiles = []\nhistory = 0\n"
+OUTPUT = "[output]\nprofiles = 200\nhistory = 10\nprobes = [0.25, 0.5]\n"
+BARE = "[output]\nprofiles = [0.0]\nhistory = 1000000000\n"  # as little as a deck can ask for
 COMMAND = "from hydro1d.cli import main; raise SystemExit(main())"
 
 

@@ -6,12 +6,14 @@ Here a kernel's file is named after the content of everything that went into it,
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import dis
 import functools
 import hashlib
 import os
 import re
+import stat
 import sys
 import tempfile
 import threading
@@ -202,24 +204,40 @@ def cache_folder() -> Path:
 
 
 def _read(key: str) -> bytes | None:
+    """The object code of an earlier run, if it is whole, and nobody else could have put it there."""
+    path = cache_folder() / f"{key}.o"
     try:
-        content = (cache_folder() / f"{key}.o").read_bytes()
+        with path.open("rb") as file:
+            if not _is_ours(os.fstat(file.fileno())):
+                return None
+            content = file.read()
     except OSError:
         return None
     digest, code = content[:32], content[32:]
-    return code if hashlib.sha256(code).digest() == digest else None
+    return code if code and hashlib.sha256(code).digest() == digest else None
+
+
+def _is_ours(found: os.stat_result) -> bool:
+    """Machine code is run: it must be this user's, or root's, and writable by nobody else."""
+    if not hasattr(os, "getuid"):
+        return True
+    return found.st_uid in (os.getuid(), 0) and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
 def _write(key: str, code: bytes) -> None:
-    """Keep the object code for later runs; a cache that cannot be written costs time, not the run."""
+    """Keep the object code for later runs; a cache that cannot be written costs time, not the run.
+
+    Written beside its place and renamed: another process sees the whole file or none.
+    """
     temporary = None
     try:
         folder = cache_folder()
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=folder, delete=False) as file:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=folder, delete=False) as file:  # readable by its owner alone
             temporary = Path(file.name)
             file.write(hashlib.sha256(code).digest() + code)
         temporary.replace(folder / f"{key}.o")
     except OSError:
         if temporary is not None:
-            temporary.unlink(missing_ok=True)
+            with contextlib.suppress(OSError):
+                temporary.unlink()

@@ -47,9 +47,9 @@ INLINE void loading(const int64_t law, const Layer *m, double strain, double *st
         }
         *stress = m->stresses[low] + m->slopes[low] * (strain - m->strains[low]);
         *tangent = m->slopes[low];
-    } else if (law == POWER) { /* a hardening, b exponent */
-        double over = larger(strain - m->yield_strain, 0.0), power = pow(over, m->b - 1.0);
-        int elastic = strain <= m->yield_strain;
+    } else if (law == POWER) { /* a hardening, b exponent, c strain at yield */
+        double over = larger(strain - m->c, 0.0), power = pow(over, m->b - 1.0);
+        int elastic = strain <= m->c;
         *stress = elastic ? m->modulus * strain : m->plateau + m->a * over * power;
         *tangent = elastic ? m->modulus : m->b * m->a * power;
     } else {
