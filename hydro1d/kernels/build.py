@@ -111,9 +111,7 @@ def _machine() -> Any:
         llvm.initialize_native_target()
         llvm.initialize_native_asmprinter()
         _target = llvm.Target.from_default_triple()
-    return _target.create_target_machine(
-        cpu=llvm.get_host_cpu_name(), features=_features(), opt=3, reloc="pic"
-    )
+    return _target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=_features(), opt=3, reloc="pic")
 
 
 def _features() -> str:

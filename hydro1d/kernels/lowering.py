@@ -94,13 +94,13 @@ def _register_primitives() -> None:
     overload(primitives.larger)(lambda value, other: lambda value, other: _larger(value, other))
     overload(primitives.accumulate)(lambda total, value: lambda total, value: _accumulate(total, value))
     overload(primitives.gather)(
-        lambda pointer, start, stride, count: lambda pointer, start, stride, count: _gather(
-            pointer, start, stride, count
+        lambda pointer, start, stride, count: (
+            lambda pointer, start, stride, count: _gather(pointer, start, stride, count)
         )
     )
     overload(primitives.scatter)(
-        lambda pointer, start, stride, values: lambda pointer, start, stride, values: _scatter(
-            pointer, start, stride, values
+        lambda pointer, start, stride, values: (
+            lambda pointer, start, stride, values: _scatter(pointer, start, stride, values)
         )
     )
     overload(primitives.call)(

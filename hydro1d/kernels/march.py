@@ -85,30 +85,113 @@ def march(
     while taken < steps and status == PAUSED and recorded < capacity:
         step = choose_step(ledger)
         kick = 0.5 * (ledger[LAST_STEP] + step)
-        kick_ends(ledger, addresses, parameters, layers, end_numbers, memory, out, before, after, displacement, force, mass,
-                  layer_count, zones, kick, step)
+        kick_ends(
+            ledger,
+            addresses,
+            parameters,
+            layers,
+            end_numbers,
+            memory,
+            out,
+            before,
+            after,
+            displacement,
+            force,
+            mass,
+            layer_count,
+            zones,
+            kick,
+            step,
+        )
         for layer in range(layer_count):
             numbers[layer * NUMBERS + zone_places.STEP] = step
             numbers[layer * NUMBERS + zone_places.KICK] = kick
-            numbers[layer * NUMBERS + zone_places.AFRESH] = 1.0 if taken == 0 else 0.0  # the kernels remember their curves
-        stable, speed, layer = sweep(ledger, layers, addresses, parameters, numbers, out, before, after, displacement,
-                                     energy, force, state, curve, tangents, stiffnesses, speeds, inverse_mass, layer_count, zones, kick, step)
+            numbers[layer * NUMBERS + zone_places.AFRESH] = (
+                1.0 if taken == 0 else 0.0
+            )  # the kernels remember their curves
+        stable, speed, layer = sweep(
+            ledger,
+            layers,
+            addresses,
+            parameters,
+            numbers,
+            out,
+            before,
+            after,
+            displacement,
+            energy,
+            force,
+            state,
+            curve,
+            tangents,
+            stiffnesses,
+            speeds,
+            inverse_mass,
+            layer_count,
+            zones,
+            kick,
+            step,
+        )
         before, after = after, before
         swapped = not swapped
         taken += 1
         status = close_step(ledger, force, zones, step, stable, speed, layer)
         if cadence > 0 and int(ledger[CYCLE]) % cadence == 0 and status <= PAUSED:
-            record(ledger, layers, addresses, parameters, numbers, end_numbers, memory, out, before, after, displacement,
-                   energy, force, state, mass, inverse_mass, coordinate, offset(rows, recorded * columns), probes,
-                   probe_weights, offset(probe_rows, recorded * probes[0] * 4), layer_count, zones)
+            record(
+                ledger,
+                layers,
+                addresses,
+                parameters,
+                numbers,
+                end_numbers,
+                memory,
+                out,
+                before,
+                after,
+                displacement,
+                energy,
+                force,
+                state,
+                mass,
+                inverse_mass,
+                coordinate,
+                offset(rows, recorded * columns),
+                probes,
+                probe_weights,
+                offset(probe_rows, recorded * probes[0] * 4),
+                layer_count,
+                zones,
+            )
             recorded += 1
     if swapped:
         for i in range(zones + 3):
             velocity[i] = before[i]
     if ledger[ROW_AT_STOP] > 0.0 and status == REACHED and (recorded == 0 or int(ledger[CYCLE]) % max(cadence, 1) != 0):
-        record(ledger, layers, addresses, parameters, numbers, end_numbers, memory, out, velocity, spare, displacement,
-               energy, force, state, mass, inverse_mass, coordinate, offset(rows, recorded * columns), probes,
-               probe_weights, offset(probe_rows, recorded * probes[0] * 4), layer_count, zones)
+        record(
+            ledger,
+            layers,
+            addresses,
+            parameters,
+            numbers,
+            end_numbers,
+            memory,
+            out,
+            velocity,
+            spare,
+            displacement,
+            energy,
+            force,
+            state,
+            mass,
+            inverse_mass,
+            coordinate,
+            offset(rows, recorded * columns),
+            probes,
+            probe_weights,
+            offset(probe_rows, recorded * probes[0] * 4),
+            layer_count,
+            zones,
+        )
         recorded += 1
     for layer in range(layer_count):  # what comes next may be another state: nothing remembered holds for it
         numbers[layer * NUMBERS + zone_places.AFRESH] = 1.0
@@ -131,8 +214,22 @@ def choose_step(ledger: Any) -> float:
 
 
 def kick_ends(
-    ledger: Any, addresses: Any, parameters: Any, layers: Any, end_numbers: Any, memory: Any, out: Any, before: Any,
-    after: Any, displacement: Any, force: Any, mass: Any, layer_count: int, zones: int, kick: float, step: float,
+    ledger: Any,
+    addresses: Any,
+    parameters: Any,
+    layers: Any,
+    end_numbers: Any,
+    memory: Any,
+    out: Any,
+    before: Any,
+    after: Any,
+    displacement: Any,
+    force: Any,
+    mass: Any,
+    layer_count: int,
+    zones: int,
+    kick: float,
+    step: float,
 ) -> None:
     """New velocities of the two end nodes by their boundaries, and the work and impulse that these give."""
     for side in range(2):
@@ -141,8 +238,14 @@ def kick_ends(
         end[0], end[1], end[2] = ledger[TIME], ledger[LAST_STEP], step
         end[3], end[4] = sign * before[node + 1], sign * displacement[node]
         end[5], end[6] = mass[node], force[zone]
-        call(addresses, layer_count + side, offset(parameters, layers[(layer_count + side) * LAYER + PARAMETERS]), end,
-             offset(memory, side * end_places.MEMORY), out)
+        call(
+            addresses,
+            layer_count + side,
+            offset(parameters, layers[(layer_count + side) * LAYER + PARAMETERS]),
+            end,
+            offset(memory, side * end_places.MEMORY),
+            out,
+        )
         pushed = out[end_places.FORCE]
         after[node + 1] = sign * out[end_places.VELOCITY]
         ledger[WORK] += pushed * 0.5 * (end[3] + out[end_places.VELOCITY]) * kick
@@ -151,14 +254,33 @@ def kick_ends(
 
 
 def sweep(
-    ledger: Any, layers: Any, addresses: Any, parameters: Any, numbers: Any, out: Any, before: Any, after: Any,
-    displacement: Any, energy: Any, force: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, inverse_mass: Any, layer_count: int, zones: int, kick: float,
+    ledger: Any,
+    layers: Any,
+    addresses: Any,
+    parameters: Any,
+    numbers: Any,
+    out: Any,
+    before: Any,
+    after: Any,
+    displacement: Any,
+    energy: Any,
+    force: Any,
+    state: Any,
+    curve: Any,
+    tangents: Any,
+    stiffnesses: Any,
+    speeds: Any,
+    inverse_mass: Any,
+    layer_count: int,
+    zones: int,
+    kick: float,
     step: float,
 ) -> tuple[float, float, int]:
     """Node phase and zone phase, block by block from left to right.
 
     The node pass runs ahead of the zone pass by the two nodes that the last zone's limiter looks at, and on to the end of a
-    cache line; going right, it never meets a force that is already new. Returns the largest stable step, the largest strain and the layer that limits.
+    cache line; going right, it never meets a force that is already new. Returns the largest stable step, the largest strain and
+    the layer that limits.
     """
     displacement[0] += step * after[1]
     displacement[zones] += step * after[zones + 1]
@@ -177,9 +299,25 @@ def sweep(
             node = max(node, ahead)
             after[0] = 2.0 * after[1] - after[2]
             after[zones + 2] = 2.0 * after[zones + 1] - after[zones]
-            call(addresses, layer, offset(parameters, layers[layer * LAYER + PARAMETERS]), constants, offset(after, start),
-                 offset(before, start), offset(displacement, start), offset(energy, start), offset(force, start),
-                 offset(state, start), offset(curve, start), offset(tangents, start), offset(stiffnesses, start), offset(speeds, start), end - start, zones, out)
+            call(
+                addresses,
+                layer,
+                offset(parameters, layers[layer * LAYER + PARAMETERS]),
+                constants,
+                offset(after, start),
+                offset(before, start),
+                offset(displacement, start),
+                offset(energy, start),
+                offset(force, start),
+                offset(state, start),
+                offset(curve, start),
+                offset(tangents, start),
+                offset(stiffnesses, start),
+                offset(speeds, start),
+                end - start,
+                zones,
+                out,
+            )
             # `not <=` and not `>`: a NaN must win.
             if not out[zone_places.STIFFNESS] <= stiffness:
                 stiffness = out[zone_places.STIFFNESS]
@@ -215,17 +353,53 @@ def close_step(ledger: Any, force: Any, zones: int, step: float, stable: float, 
 
 
 def record(
-    ledger: Any, layers: Any, addresses: Any, parameters: Any, numbers: Any, end_numbers: Any, memory: Any, out: Any,
-    velocity: Any, centred: Any, displacement: Any, energy: Any, force: Any, state: Any, mass: Any, inverse_mass: Any,
-    coordinate: Any, row: Any, probes: Any, probe_weights: Any, probe_row: Any, layer_count: int, zones: int,
+    ledger: Any,
+    layers: Any,
+    addresses: Any,
+    parameters: Any,
+    numbers: Any,
+    end_numbers: Any,
+    memory: Any,
+    out: Any,
+    velocity: Any,
+    centred: Any,
+    displacement: Any,
+    energy: Any,
+    force: Any,
+    state: Any,
+    mass: Any,
+    inverse_mass: Any,
+    coordinate: Any,
+    row: Any,
+    probes: Any,
+    probe_weights: Any,
+    probe_row: Any,
+    layer_count: int,
+    zones: int,
 ) -> None:
     """One row of the history, and of the probes, at the time of the stresses.
 
     Velocities, energies and the boundaries' work are taken half a kick on, to that very time; the state is not touched.
     """
     half = 0.5 * ledger[LAST_STEP]
-    work, impulse = centre(ledger, addresses, parameters, layers, end_numbers, memory, out, velocity, centred,
-                           displacement, force, mass, inverse_mass, layer_count, zones, half)
+    work, impulse = centre(
+        ledger,
+        addresses,
+        parameters,
+        layers,
+        end_numbers,
+        memory,
+        out,
+        velocity,
+        centred,
+        displacement,
+        force,
+        mass,
+        inverse_mass,
+        layer_count,
+        zones,
+        half,
+    )
     kinetic, momentum = 0.0, 0.0
     for i in range(zones + 1):
         kinetic = accumulate(kinetic, 0.5 * mass[i] * centred[i + 1] * centred[i + 1])
@@ -263,9 +437,25 @@ def record(
         zone, layer = probes[1 + 2 * k], probes[2 + 2 * k]
         constants, share, probe = offset(numbers, layer * NUMBERS), probe_weights[k], offset(probe_row, 4 * k)
         observed = offset(out, SCRATCH)
-        call(addresses, layer, offset(parameters, layers[layer * LAYER + PARAMETERS]), constants, offset(velocity, zone),
-             offset(velocity, zone), offset(displacement, zone), offset(energy, zone), observed, offset(state, zone), out, out, out, out, -1,
-             zones, out)
+        call(
+            addresses,
+            layer,
+            offset(parameters, layers[layer * LAYER + PARAMETERS]),
+            constants,
+            offset(velocity, zone),
+            offset(velocity, zone),
+            offset(displacement, zone),
+            offset(energy, zone),
+            observed,
+            offset(state, zone),
+            out,
+            out,
+            out,
+            out,
+            -1,
+            zones,
+            out,
+        )
         probe[3] = observed[0]
         probe[2] = (displacement[zone] - displacement[zone + 1]) * constants[zone_places.INVERSE_SIZE]
         probe[1] = (1.0 - share) * centred[zone + 1] + share * centred[zone + 2]
@@ -274,8 +464,22 @@ def record(
 
 
 def centre(
-    ledger: Any, addresses: Any, parameters: Any, layers: Any, end_numbers: Any, memory: Any, out: Any, velocity: Any,
-    centred: Any, displacement: Any, force: Any, mass: Any, inverse_mass: Any, layer_count: int, zones: int, half: float,
+    ledger: Any,
+    addresses: Any,
+    parameters: Any,
+    layers: Any,
+    end_numbers: Any,
+    memory: Any,
+    out: Any,
+    velocity: Any,
+    centred: Any,
+    displacement: Any,
+    force: Any,
+    mass: Any,
+    inverse_mass: Any,
+    layer_count: int,
+    zones: int,
+    half: float,
 ) -> tuple[float, float]:
     """Velocities half a kick on, at the time of the stresses; boundary work and impulse up to then."""
     work, impulse = ledger[WORK], ledger[IMPULSE]
@@ -289,8 +493,14 @@ def centre(
         end[5], end[6] = mass[node], force[zone]
         for k in range(end_places.MEMORY):
             scratch[k] = memory[side * end_places.MEMORY + k]
-        call(addresses, layer_count + side, offset(parameters, layers[(layer_count + side) * LAYER + PARAMETERS]), end,
-             scratch, out)
+        call(
+            addresses,
+            layer_count + side,
+            offset(parameters, layers[(layer_count + side) * LAYER + PARAMETERS]),
+            end,
+            scratch,
+            out,
+        )
         centred[node + 1] = sign * out[end_places.VELOCITY]
         work += out[end_places.FORCE] * 0.5 * (end[3] + out[end_places.VELOCITY]) * half
         impulse += sign * out[end_places.FORCE] * half

@@ -51,7 +51,9 @@ class Program:
 
     def _bind(self) -> None:
         slabs = self.column.slabs
-        kernels = [zone_function(slab.law) for slab in slabs] + [end_function(end) for end in (self.column.left, self.column.right)]
+        kernels = [zone_function(slab.law) for slab in slabs] + [
+            end_function(end) for end in (self.column.left, self.column.right)
+        ]
         if build.interpreted():
             self._zone_functions: list[Callable] = [kernel for kernel, _ in kernels[: len(slabs)]]
             self.addresses: Any = [kernel for kernel, _ in kernels]
@@ -69,8 +71,8 @@ class Program:
         arrays = (
             ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
             state.velocity, self.spare, state.displacement, state.energy, state.force, state.material, self.curve,
-            self.tangents, self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table,
-            self.probe_weights, self.probe_rows,
+            self.tangents, self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass,
+            self.column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
         )  # fmt: skip
         self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
         return int(ledger[march.STATUS])
@@ -168,7 +170,8 @@ def _component_kernel(
 def _shape(component: Component, members: dict[str, Any]) -> str:
     """What the machine code depends on of a component: its code and the kinds, not the values, of its members."""
     kinds = [
-        f"{name}:{_shape(*value) if isinstance(value, tuple) else type(value).__name__}" for name, value in members.items()
+        f"{name}:{_shape(*value) if isinstance(value, tuple) else type(value).__name__}"
+        for name, value in members.items()
     ]
     return f"{build.fingerprint(type(component))}({', '.join(kinds)})"
 

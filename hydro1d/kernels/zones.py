@@ -30,8 +30,8 @@ _DOC = """Advance ``zones`` zones over a step.
 velocity, velocity_before (node i at i + 1; at n + ½ and n − ½) and displacement (new) are over nodes; energy (specific) and
 force (σ + q) over zones; state holds the largest strain and then the law's history, each `stride` long.
 curve, tangents, stiffnesses and speeds are what `foam_kernel` remembers: stress and tangent of the loading curve, stiffness,
-speed of the linear viscosity. The number of zones is negative to observe: `force` becomes the stress alone, nothing else changes. A NaN anywhere
-comes back as the stiffness.
+speed of the linear viscosity. The number of zones is negative to observe: `force` becomes the stress alone, nothing else
+changes. A NaN anywhere comes back as the stiffness.
 """
 
 
@@ -154,7 +154,9 @@ def push_zones(
     top_stiffness, top_speed, power = 0.0, 0.0, 0.0
     for i in range(start, end):
         if turned:
-            speeds[i] = (smooth_linear if law.never_yielded(state[i]) else linear) * math.sqrt(tangents[i] * per_density)
+            speeds[i] = (smooth_linear if law.never_yielded(state[i]) else linear) * math.sqrt(
+                tangents[i] * per_density
+            )
             stiffnesses[i] = law.slope_below(state[i], tangents[i])
         jump = velocity[i + 1] - velocity[i + 2]
         energy[i] += force[i] * to_kick * (velocity_before[i + 1] - velocity_before[i + 2] + jump)
