@@ -50,11 +50,14 @@ def laws(name: str) -> list[Law]:
     return [tangent, power, rph]
 
 
-def column(name: str, zones: int, *, end: float = 1.0, history: int = 0, **output: object) -> Column:
-    """One metre of the case's materials, in layers of equal thickness."""
+def column(
+    name: str, zones: int, *, parts: int = 1, end: float = 1.0, history: int = 0, **output: object
+) -> Column:
+    """One metre of the case's materials, in layers of equal thickness; each zone cut into ``parts``."""
     found = laws(name)
     shares = [zones // len(found)] * len(found)
     shares[0] += zones - sum(shares)
+    shares = [share * parts for share in shares]
     layers = [
         SimpleNamespace(material="foam", law=law, thickness=1.0 / len(found), zones=share, velocity=0.0)
         for law, share in zip(found, shares, strict=True)
@@ -70,7 +73,7 @@ def stations(name: str, zones: int, count: int = 4) -> tuple[Program, list[State
     settle.
     """
     parts = max(zones // 1000, 1) if zones > 2000 else 1
-    program, coarse = Program(column(name, zones)), Program(column(name, zones // parts))
+    coarse, program = (Program(column(name, zones // parts, parts=cut)) for cut in (1, parts))
     end = 8e-3 if name != "ideal-gas" else 2e-3
     states = []
     state = _begun(coarse)

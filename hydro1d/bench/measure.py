@@ -15,7 +15,7 @@ from hydro1d.kernels.program import Program
 from hydro1d.solver import solve
 from hydro1d.state import State
 
-AGREEMENT = 1e-10  # of the two answers, or nothing is timed
+AGREEMENT = 1e-10  # of the two answers, or nothing is timed; beyond 10 000 zones the round-off of their strains is more
 ZONE_STEPS = 100_000  # of one timed call, a fraction of a millisecond
 
 
@@ -57,7 +57,7 @@ def agree(program: Program, other: reference.Reference, state: State, zones: int
     program.advance(one, stop=1.0, steps=steps, row_at_stop=False)
     other.advance(two, steps)
     found = reference.difference(one, two)
-    if not found <= AGREEMENT:
+    if not found <= AGREEMENT * max(zones / 1e4, 1.0):
         raise RuntimeError(f"hydro1d and the C reference differ by {found:.1e} after {steps} steps")
     return found
 
@@ -84,14 +84,14 @@ def plain_numpy(zones: int, repetitions: int) -> dict[str, Any]:
 def memory_bandwidth(repetitions: int) -> dict[str, float]:
     """Bytes a second through memory by a triad of arrays beyond any cache, and ns per zone-cycle that this allows at most.
 
-    Per zone and cycle a foam moves 16 numbers of 8 bytes: velocity, displacement, force and energy are read and written,
-    the other velocity is written (and fetched for it), and mass, largest strain, and four numbers of its curve are read.
+    Per zone and cycle a foam moves 14 numbers of 8 bytes at least: both velocities, displacement, force, energy, mass, largest
+    strain and three numbers of its curve come in; one velocity, displacement, force and energy go out.
     """
     size = 20_000_000
     a, b, c = np.zeros(size), np.ones(size), np.ones(size)
     seconds = best([lambda: lambda: np.add(b, c, out=a)], repetitions)[0]
     moved = 4 * 8 * size  # two read, one written, and that one fetched first
-    return {"bytes_per_second": moved / seconds, "bound_ns": 16 * 8 * seconds / moved * 1e9}
+    return {"bytes_per_second": moved / seconds, "bound_ns": 14 * 8 * seconds / moved * 1e9}
 
 
 def threads(zones: int, repetitions: int, count: int = 2) -> dict[str, float]:
