@@ -297,8 +297,9 @@ def frame(column: Column, program: Program, state: State) -> Frame:
     for slab in column.slabs:
         nodes = state.displacement[slab.first : slab.first + slab.zones + 1]
         strain[slab.part] = (nodes[:-1] - nodes[1:]) / slab.size
-    stress = program.stress(state)
     jump = velocity[:-1] - velocity[1:] + centred[:-1] - centred[1:]
+    scratch.energy[:] = state.energy + 0.5 * half * state.force * jump / column.zone_mass
+    stress = program.stress(scratch)
     fields = {
         "position": column.node_coordinate + state.displacement,
         "velocity": centred,
@@ -307,7 +308,7 @@ def frame(column: Column, program: Program, state: State) -> Frame:
         "stress": stress,
         "viscosity": state.force - stress,
         "density": np.concatenate([np.full(s.zones, s.law.density) for s in column.slabs]) / (1.0 - strain),
-        "internal_energy": state.energy + 0.5 * half * state.force * jump / column.zone_mass,
+        "internal_energy": scratch.energy,
         "largest_strain": state.material[0].copy(),
     }
     for name in [variable.name for variable in column.zone_history[1:]]:

@@ -72,7 +72,7 @@ class Baseline:
         room = np.minimum(1.0 - strain, np.maximum(law.densification - strain, 0.0) + beyond)
         crowding = quadratic * closing / room
         speed = np.where(smooth, smooth_linear, linear) * np.sqrt(tangent / law.density) + crowding
-        s.force[:] = stress + law.density * closing * speed
+        s.force[:] = stress + np.where(stress > 0.0, law.density * closing * speed, 0.0)
         fastest = float((speed + crowding).max())
         stable = size / (math.sqrt(stiffness.max() / law.density + fastest**2) + fastest)
         s.ledger[march.NEXT_STEP] = s.ledger[march.CFL] * stable

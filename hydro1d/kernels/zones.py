@@ -64,7 +64,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             approach = closing / law.room(strain, closing)
             crowding = quadratic * approach
             speed = (smooth_linear if smooth else linear) * math.sqrt(tangent * per_density) + crowding
-            viscosity = density * closing * speed
+            viscosity = 0.0 if law.is_open(stress) else density * closing * speed
             state[i] = largest
             scatter(state, stride + i, stride, history)
             force[i] = stress + viscosity
@@ -168,7 +168,7 @@ def push_zones(
         approach = closing / law.room(strain, closing)
         crowding = quadratic * approach
         speed = speeds[i] + crowding
-        viscosity = density * closing * speed
+        viscosity = 0.0 if law.is_open(stress) else density * closing * speed
         force[i] = stress + viscosity
         power = accumulate(power, viscosity * jump + 0.0 * force[i])
         top_stiffness = larger(top_stiffness, stiffnesses[i])

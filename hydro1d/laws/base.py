@@ -54,6 +54,10 @@ class Law(Component):
         """
         return 1.0 - strain
 
+    def is_open(self, stress: float) -> bool:
+        """Whether the material has parted at this stress: an open gap that closes feels no viscosity."""
+        return False
+
     @derived
     def initial_energy(self) -> float:
         """Specific internal energy at zero strain, J/kg."""
@@ -138,6 +142,10 @@ class Foam(Law):
     def least_stress(self) -> float:
         """Zero where the foam bears no tension."""
         return -math.inf if self.tension else 0.0
+
+    def is_open(self, stress: float) -> bool:
+        """At the tension cut-off."""
+        return stress <= self.least_stress
 
     def room(self, strain: float, closing: float) -> float:
         """Strain to densification and what a zone that closes so fast needs beyond it.

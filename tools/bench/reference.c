@@ -103,7 +103,8 @@ INLINE void zone_loop(const int64_t law, const Layer *given, int64_t first, int6
         }
         double crowding = m->quadratic * closing / room;
         double speed = (smooth ? m->smooth_linear : m->linear) * sqrt(tangent * per_density) + crowding;
-        double viscosity = m->density * closing * speed;
+        int parted = law != IDEAL_GAS && stress <= 0.0; /* an open gap that closes feels nothing */
+        double viscosity = parted ? 0.0 : m->density * closing * speed;
         top[i] = largest;
         f[i] = stress + viscosity;
         power += viscosity * jump;
