@@ -33,6 +33,7 @@ class Last(measure._Nowhere):
     """Keeps the last profile."""
 
     def profile(self, frame) -> None:
+        """Takes the fields of a frame."""
         self.fields = frame.fields
 
 
