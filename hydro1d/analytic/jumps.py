@@ -4,6 +4,7 @@ Source: Eqs. 20-22 and 31-37 of Harrigan, Reid & Seyed Yaghoubi, Int. J. Impact 
 doi:10.1016/j.ijimpeng.2009.03.011. A is the state ahead of the front, B the one behind, [f] = f_B - f_A.
 """
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -34,7 +35,7 @@ class Fields(NamedTuple):
 
 
 class Residuals(NamedTuple):
-    """Relative residuals of the jump conditions; 0 for a front that satisfies them."""
+    """Relative residuals of the jump conditions; 0 for a front that satisfies them to the last digit of its states."""
 
     mass: float
     momentum: float
@@ -94,19 +95,29 @@ class Jump:
     def residuals(self) -> Residuals:
         """How far the states are from Eqs. 31 (mass), 32 (momentum) and 22 (energy).
 
-        Each is the difference of the two sides over the larger of them.
+        Each is the difference of the two sides over the larger of them. What the last digit of the states alone makes
+        of the difference does not count: a weak jump is the small difference of two large stresses, and no number
+        held as a double says more about it.
         """
         stored = self.initial_density * (self.behind.internal_energy - self.ahead.internal_energy)
+        last = State(*(math.ulp(a) + math.ulp(b) for a, b in zip(self.ahead, self.behind, strict=True)))
+        mean_stress = 0.5 * (abs(self.ahead.stress) + abs(self.behind.stress))
+        of_energy = self.initial_density * last.internal_energy + mean_stress * last.strain
         return Residuals(
-            mass=_relative_difference(self.velocity, self.front_speed * self.strain),
-            momentum=_relative_difference(self.stress, self.mass_rate * self.velocity),
-            energy=_relative_difference(stored, self.absorbed_energy),
+            mass=_relative_difference(
+                self.velocity, self.front_speed * self.strain, last.velocity + abs(self.front_speed) * last.strain
+            ),
+            momentum=_relative_difference(
+                self.stress, self.mass_rate * self.velocity, last.stress + abs(self.mass_rate) * last.velocity
+            ),
+            energy=_relative_difference(stored, self.absorbed_energy, of_energy + 0.5 * abs(self.strain) * last.stress),
         )
 
 
-def _relative_difference(left: float, right: float) -> float:
+def _relative_difference(left: float, right: float, digits: float) -> float:
+    """|left − right| beyond `digits`, the rounding of what they were made of, over the larger of the two."""
     scale = max(abs(left), abs(right))
-    return abs(left - right) / scale if scale > 0.0 else 0.0
+    return max(abs(left - right) - digits, 0.0) / scale if scale > 0.0 else 0.0
 
 
 def density(initial_density: ArrayLike, strain: ArrayLike) -> Array:

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
@@ -71,7 +71,6 @@ def test_jumps_and_conservation(pulse, mass, share):
     column = CladColumn(FOAM, mass, pulse)
     t = share * column.stop_time
     (front,) = column.jumps(t)
-    assume(front.stress > 1e-4 * front.behind.stress)  # a weaker one is lost in the last digits of the plateau
     assert max(front.residuals()) < 1e-10
     now = column.history(t)
     momentum = (mass + FOAM.density * now.front) * now.velocity
