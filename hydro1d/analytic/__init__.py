@@ -1,7 +1,8 @@
 """Exact solutions to measure the solver against; imports neither solver nor laws. SI units, compression positive."""
 
 from hydro1d.analytic.clad_column import CladColumn
-from hydro1d.analytic.compaction_column import ColumnHistory, CompactionPulse, CompactionStriker
+from hydro1d.analytic.compaction_column import ColumnHistory
+from hydro1d.analytic.compaction_loads import CompactionPulse, CompactionStriker
 from hydro1d.analytic.curves import (
     EPH,
     EPPH,
@@ -29,8 +30,9 @@ from hydro1d.analytic.pulses import (
     TriangularPulse,
 )
 from hydro1d.analytic.riemann import Gas, RiemannProblem
+from hydro1d.analytic.rigid import FrontHistory
 from hydro1d.analytic.rph import RPHFoam, RPHPiston, RPHStriker
-from hydro1d.analytic.rppl import RPPL, FrontHistory, RPPLStriker
+from hydro1d.analytic.rppl import RPPL, RPPLStriker
 from hydro1d.analytic.rppl_energy_balance import EnergyBalanceStriker
 from hydro1d.analytic.rppl_pulse import RPPLPulse
 from hydro1d.analytic.step_loading import StepLoading, piston, pressure_step

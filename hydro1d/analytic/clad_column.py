@@ -18,7 +18,8 @@ from hydro1d.analytic._checks import Array, coordinates, length_allowed, not_neg
 from hydro1d.analytic._roots import bisect
 from hydro1d.analytic.jumps import Fields, Jump
 from hydro1d.analytic.pulses import Pulse
-from hydro1d.analytic.rppl import RPPL, FrontHistory
+from hydro1d.analytic.rigid import FrontHistory
+from hydro1d.analytic.rppl import RPPL
 
 
 @dataclass(frozen=True)

@@ -18,12 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolution, solve_ivp
 
-from hydro1d.analytic._checks import Array, Flags, coordinates, length_allowed, positive, require, times
+from hydro1d.analytic._checks import Array, Flags, coordinates, times
 from hydro1d.analytic._roots import bisect
 from hydro1d.analytic.curves import Curve
 from hydro1d.analytic.hugoniot import Hugoniot, compaction_hugoniot, compaction_strain
 from hydro1d.analytic.jumps import Fields, Jump, State, rest_state, shocked_state
-from hydro1d.analytic.step_loading import StepLoading, pressure_step
 
 
 class ColumnHistory(NamedTuple):
@@ -44,7 +43,7 @@ class ColumnHistory(NamedTuple):
     right_stress: Array
 
 
-class _Start(NamedTuple):
+class Start(NamedTuple):
     """Where the decaying front starts: time, crushed length, displacement and velocity of the loaded end."""
 
     time: float
@@ -70,7 +69,7 @@ class CompactionColumn(ABC):
 
     @property
     @abstractmethod
-    def _start(self) -> _Start: ...
+    def _start(self) -> Start: ...
 
     @abstractmethod
     def _left_stress(self, t: Array, deceleration: Array) -> Array: ...
@@ -270,82 +269,3 @@ class CompactionColumn(ABC):
         change = compaction_strain(curve, relative) - curve.yield_strain
         resistance = curve.yield_stress + curve.density * relative**2 / change
         return [-resistance / (self.end_mass + curve.density * front), relative / change, velocity]
-
-
-@dataclass(frozen=True)
-class CompactionPulse(CompactionColumn):
-    """Rectangular pressure pulse on a column with a fixed back (with an `EPPH` curve: Eqs. 39-47).
-
-    curve; length, m; pressure P, Pa, above yield; duration T, s. Called with (coordinate, t) in m and s until
-    `end_time`, it returns `Fields`. Raises ValueError where the compaction front would overtake the precursor.
-    """
-
-    pressure: float
-    duration: float
-
-    def __post_init__(self) -> None:
-        length_allowed(self.length)
-        positive(self, "pressure", "duration")
-        above = self.pressure > self.curve.yield_stress
-        require(above, "pressure", self.pressure, f"greater than the yield stress {self.curve.yield_stress:.9g} Pa")
-        fronts = len(self.loading.states) - 1
-        require(fronts == 2, "pressure", self.pressure, "such that one shock follows an elastic precursor")
-
-    @cached_property
-    def loading(self) -> StepLoading:
-        """Stage 1: precursor and steady compaction front, as long as the precursor runs."""
-        return pressure_step(self.curve, self.pressure)
-
-    @property
-    def end_mass(self) -> float:
-        """Nothing rides on the loaded end."""
-        return 0.0
-
-    @cached_property
-    def _start(self) -> _Start:
-        final, front = self.loading.states[-1], self.loading.jumps()[-1]
-        return _Start(self.duration, self.duration * front.front_speed, self.duration * final.velocity, final.velocity)
-
-    def _left_stress(self, t: Array, deceleration: Array) -> Array:
-        return np.where(t <= self.duration, self.pressure, 0.0)
-
-    def _block_stress(self, coordinate: Array, t: Array, deceleration: Array) -> Array:
-        return np.where(t <= self.duration, self.pressure, self.curve.density * coordinate * deceleration)
-
-
-@dataclass(frozen=True)
-class CompactionStriker(CompactionColumn):
-    """A rigid mass against a column with an elastic precursor and a fixed back: Scheme 1 at a finite modulus.
-
-    curve; length, m; mass of the striker per area, kg/m^2; impact_velocity v0, m/s, above VY. The striker keeps in
-    contact until `end_time`. For a curve of plateau and rigid locking this is Scheme 1 with v0 - VY for v0, eD - eY for
-    eD and u - VY t for u. Raises ValueError where the compaction front would overtake the precursor.
-    """
-
-    mass: float
-    impact_velocity: float
-
-    def __post_init__(self) -> None:
-        length_allowed(self.length)
-        positive(self, "mass", "impact_velocity")
-        curve = self.curve
-        above = self.impact_velocity > curve.yield_velocity
-        require(above, "impact_velocity", self.impact_velocity, f"greater than VY = {curve.yield_velocity:.9g} m/s")
-        front = float(compaction_hugoniot(curve, self.impact_velocity - curve.yield_velocity).front_speed)
-        slower = front < curve.elastic_speed
-        require(slower, "impact_velocity", self.impact_velocity, "such that the precursor outruns the compaction front")
-
-    @property
-    def end_mass(self) -> float:
-        """The striker's mass per area, kg/m^2."""
-        return self.mass
-
-    @cached_property
-    def _start(self) -> _Start:
-        return _Start(0.0, 0.0, 0.0, self.impact_velocity)
-
-    def _left_stress(self, t: Array, deceleration: Array) -> Array:
-        return self.mass * deceleration
-
-    def _block_stress(self, coordinate: Array, t: Array, deceleration: Array) -> Array:
-        return (self.mass + self.curve.density * coordinate) * deceleration

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from hydro1d.analytic._checks import Array, coordinates, length_allowed, positive, times
 from hydro1d.analytic._roots import bisect
 from hydro1d.analytic.jumps import Fields, Jump, State
-from hydro1d.analytic.rppl import FrontHistory
+from hydro1d.analytic.rigid import FrontHistory, MomentumStriker
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 
@@ -72,7 +72,7 @@ class RPHFoam:
 class RPHPiston:
     """A piston of constant velocity (m/s) against R-PH foam; length of the column, m. Steady shock."""
 
-    foam: RPHFoam
+    material: RPHFoam
     velocity: float
     length: float = math.inf
 
@@ -83,11 +83,11 @@ class RPHPiston:
     @property
     def end_time(self) -> float:
         """When the front reaches the far end, s."""
-        return self.length / (self.velocity + self.foam.slowest_front)
+        return self.length / (self.velocity + self.material.slowest_front)
 
     def jumps(self, t: float = 0.0) -> list[Jump]:
         """The front at time t (s)."""
-        return [self.foam.jump(self.velocity, t * (self.velocity + self.foam.slowest_front))]
+        return [self.material.jump(self.velocity, t * (self.velocity + self.material.slowest_front))]
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""
@@ -98,27 +98,15 @@ class RPHPiston:
 
 
 @dataclass(frozen=True)
-class RPHStriker:
+class RPHStriker(MomentumStriker):
     """A rigid mass against R-PH foam with a fixed back; crushed material does not unload.
 
-    foam; mass of the striker per area, kg/m^2; impact_velocity m/s; length of the column, m.
+    material; mass of the striker per area, kg/m^2; impact_velocity m/s; length of the column, m.
     The stress after the striker has come to rest is NaN: undetermined in rigid bodies. ValueError after `end_time`,
     when the front reaches the back.
     """
 
-    foam: RPHFoam
-    mass: float
-    impact_velocity: float
-    length: float = math.inf
-
-    def __post_init__(self) -> None:
-        positive(self, "mass", "impact_velocity")
-        length_allowed(self.length)
-
-    @property
-    def stop_time(self) -> float:
-        """When the striker comes to rest in a column long enough, s."""
-        return self.mass * self.impact_velocity / self.foam.plateau_stress
+    material: RPHFoam
 
     @property
     def stop_front(self) -> float:
@@ -144,19 +132,14 @@ class RPHStriker:
         velocity = bisect(lambda v: self._time_at(v) < t, np.zeros(t.shape), self.impact_velocity)
         velocity = np.where(t >= self.stop_time, 0.0, np.where(t == 0.0, self.impact_velocity, velocity))
         front = self._front_at(velocity)
-        stress = np.where(t > self.stop_time, np.nan, self.foam.shock_stress(velocity))
-        left = stress * self.mass / (self.mass + self.foam.density * front)
+        stress = np.where(t > self.stop_time, np.nan, self.material.shock_stress(velocity))
+        left = self._striker_stress(stress, front)
         return FrontHistory(self._displacement_at(velocity), velocity, front, stress, left)
-
-    def jumps(self, t: float) -> list[Jump]:
-        """The front at time t (s); none once the striker is at rest."""
-        history = self.history(t)
-        return [] if t >= self.stop_time else [self.foam.jump(float(history.velocity), float(history.front))]
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""
         coordinate = coordinates(coordinate, self.length)
-        now, foam = self.history(t), self.foam
+        now, foam = self.history(t), self.material
         crushed = coordinate < now.front
         passed = np.where(crushed, coordinate, 0.0)
         crossing = bisect(lambda v: self._front_at(v) < passed, np.zeros(passed.shape), self.impact_velocity)
@@ -173,13 +156,13 @@ class RPHStriker:
 
     def _moving_mass(self, velocity: Array) -> Array:
         """M + rho0 X when the striker has slowed down to `velocity`."""
-        ratio = self.foam.shock_stress(self.impact_velocity) / self.foam.shock_stress(velocity)
-        drag = 0.5 * self.foam.density * self.foam.slowest_front * self._inverse_integral(velocity)
+        ratio = self.material.shock_stress(self.impact_velocity) / self.material.shock_stress(velocity)
+        drag = 0.5 * self.material.density * self.material.slowest_front * self._inverse_integral(velocity)
         return self.mass * np.sqrt(ratio) * np.exp(drag)
 
     def _inverse_integral(self, velocity: Array) -> Array:
         """Integral of 1/shock_stress from `velocity` to the impact velocity."""
-        foam = self.foam
+        foam = self.material
         middle, half = 0.5 * foam.slowest_front, self.impact_velocity - velocity
         square = foam.plateau_stress / foam.density - middle**2
         # atan or atanh of the difference in one fraction, so that nothing cancels where the discriminant vanishes
@@ -191,15 +174,15 @@ class RPHStriker:
         return inverse / (root * foam.density)
 
     def _front_at(self, velocity: Array) -> Array:
-        return (self._moving_mass(velocity) - self.mass) / self.foam.density
+        return (self._moving_mass(velocity) - self.mass) / self.material.density
 
     def _time_at(self, velocity: Array) -> Array:
         momentum = self.mass * self.impact_velocity - self._moving_mass(velocity) * velocity
-        return momentum / self.foam.plateau_stress
+        return momentum / self.material.plateau_stress
 
     def _displacement_at(self, velocity: Array) -> Array:
         """Integral of v m/shock_stress over v; Gauss, since the integrand is analytic."""
         velocity = np.asarray(velocity, dtype=float)[..., None]
         half = 0.5 * (self.impact_velocity - velocity)
         at = velocity + half * (_NODES + 1.0)
-        return np.sum(half * _WEIGHTS * at * self._moving_mass(at) / self.foam.shock_stress(at), axis=-1)
+        return np.sum(half * _WEIGHTS * at * self._moving_mass(at) / self.material.shock_stress(at), axis=-1)

@@ -7,27 +7,13 @@ follow from Eq. 6, integrated: with the crushed length X = u/eD, M X + rho0 X^2/
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydro1d.analytic._checks import Array, Flags, between, coordinates, length_allowed, positive, times
+from hydro1d.analytic._checks import Array, Flags, between, coordinates, positive, times
 from hydro1d.analytic.jumps import Fields, Jump, State
-
-
-class FrontHistory(NamedTuple):
-    """What happens at the loaded end and at the front, arrays of the shape of t.
-
-    displacement u (m) and velocity v (m/s) of the loaded end; front, the Lagrangian coordinate of the front, which is
-    the crushed length (m); front_stress behind the front and left_stress on the loaded end (Pa).
-    """
-
-    displacement: Array
-    velocity: Array
-    front: Array
-    front_stress: Array
-    left_stress: Array
+from hydro1d.analytic.rigid import FrontHistory, MomentumStriker
 
 
 @dataclass(frozen=True)
@@ -86,7 +72,7 @@ class RPPL:
 
 
 @dataclass(frozen=True)
-class RPPLStriker:
+class RPPLStriker(MomentumStriker):
     """Mass against a column of R-P-P-L (Scheme 1, Eqs. 1-13).
 
     material; mass of the striker per area, kg/m^2 (G/A0); impact_velocity v0, m/s; length of the column, m.
@@ -95,18 +81,6 @@ class RPPLStriker:
     """
 
     material: RPPL
-    mass: float
-    impact_velocity: float
-    length: float = math.inf
-
-    def __post_init__(self) -> None:
-        positive(self, "mass", "impact_velocity")
-        length_allowed(self.length)
-
-    @property
-    def stop_time(self) -> float:
-        """When the striker comes to rest if the column does not lock fully before, s."""
-        return self.mass * self.impact_velocity / self.material.plateau_stress
 
     @property
     def critical_length(self) -> float:
@@ -153,15 +127,8 @@ class RPPLStriker:
         front = twice / (self.mass + np.sqrt(self.mass**2 + material.density * twice))
         velocity = momentum / (self.mass + material.density * front)
         front_stress = np.where(t > self.stop_time, np.nan, material.shock_stress(velocity))
-        left_stress = front_stress * self.mass / (self.mass + material.density * front)
+        left_stress = self._striker_stress(front_stress, front)
         return FrontHistory(front * material.densification_strain, velocity, front, front_stress, left_stress)
-
-    def jumps(self, t: float) -> list[Jump]:
-        """The front at time t (s); none once the striker is at rest."""
-        history = self.history(t)
-        if t >= self.stop_time:
-            return []
-        return [self.material.jump(float(history.velocity), float(history.front))]
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""

@@ -11,13 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydro1d.analytic._checks import Array, length_allowed, positive, times
+from hydro1d.analytic._checks import Array, times
 from hydro1d.analytic._roots import bisect
-from hydro1d.analytic.rppl import RPPL, FrontHistory
+from hydro1d.analytic.rigid import FrontHistory, RigidStriker
+from hydro1d.analytic.rppl import RPPL
 
 
 @dataclass(frozen=True)
-class EnergyBalanceStriker:
+class EnergyBalanceStriker(RigidStriker):
     """Mass against a column of R-P-P-L by Scheme 2 (Eqs. 14-19).
 
     material; mass of the striker per area, kg/m^2; impact_velocity v0, m/s; length of the column, m.
@@ -25,13 +26,6 @@ class EnergyBalanceStriker:
     """
 
     material: RPPL
-    mass: float
-    impact_velocity: float
-    length: float = math.inf
-
-    def __post_init__(self) -> None:
-        positive(self, "mass", "impact_velocity")
-        length_allowed(self.length)
 
     @property
     def critical_length(self) -> float:
@@ -72,7 +66,7 @@ class EnergyBalanceStriker:
         front = self.critical_length * (1.0 - root) * (1.0 + root)
         displacement = front * self.material.densification_strain
         stress = np.where(t > self.stop_time, np.nan, self.stress_at(displacement))
-        left_stress = stress * self.mass / (self.mass + self.material.density * front)
+        left_stress = self._striker_stress(stress, front)
         return FrontHistory(displacement, self.velocity_at(displacement), front, stress, left_stress)
 
     def _time_at(self, root: Array) -> Array:

@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hydro1d.analytic._checks import Array, coordinates, length_allowed, positive, require, times
-from hydro1d.analytic.jumps import Fields, Jump
-from hydro1d.analytic.rppl import RPPL, FrontHistory, RPPLStriker
+from hydro1d.analytic.jumps import Fields
+from hydro1d.analytic.rigid import FrontHistory, StoppingFront
+from hydro1d.analytic.rppl import RPPL, RPPLStriker
 
 
 @dataclass(frozen=True)
-class RPPLPulse:
+class RPPLPulse(StoppingFront):
     """Rectangular pressure pulse on a column of R-P-P-L (Eqs. 25-30).
 
     material; pressure P, Pa, above the plateau stress; duration T, s; length of the column, m.
@@ -85,13 +86,6 @@ class RPPLPulse:
             np.where(loaded, self.pressure, later.front_stress),
             np.where(loaded, self.pressure, unloaded),
         )
-
-    def jumps(self, t: float) -> list[Jump]:
-        """The front at time t (s); none once the block is at rest."""
-        history = self.history(t)
-        if t >= self.stop_time:
-            return []
-        return [self.material.jump(float(history.velocity), float(history.front))]
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""

@@ -27,14 +27,14 @@ shares = st.floats(0.01, 0.99)
 def test_jumps_and_law(striker, share):
     (front,) = striker.jumps(share * striker.stop_time)
     assert max(front.residuals()) < 1e-10
-    law = striker.foam.stress(front.behind.strain) - striker.foam.plateau_stress
+    law = striker.material.stress(front.behind.strain) - striker.material.plateau_stress
     assert front.stress == pytest.approx(float(law), rel=1e-9)
 
 
 @given(strikers, shares)
 def test_motion_is_the_integral_of_its_equation(striker, share):
     """M + rho0 X moves: an integration that knows neither the momentum nor the logarithm."""
-    foam, t = striker.foam, share * striker.stop_time
+    foam, t = striker.material, share * striker.stop_time
 
     def rates(_, state):
         velocity, front, _ = state
@@ -51,7 +51,7 @@ def test_motion_is_the_integral_of_its_equation(striker, share):
 
 @given(strikers, shares)
 def test_conservation(striker, share):
-    t, foam = share * striker.stop_time, striker.foam
+    t, foam = share * striker.stop_time, striker.material
     now = striker.history(t)
     nodes, weights = np.polynomial.legendre.leggauss(80)
     x, weights = 0.5 * float(now.front) * (nodes + 1.0), 0.5 * float(now.front) * weights
@@ -71,7 +71,7 @@ def test_stop(striker):
     assert float(end.velocity) == 0.0
     assert float(end.front) == pytest.approx(striker.stop_front, rel=1e-12)
     assert float(end.displacement) == pytest.approx(striker.stop_distance, rel=1e-12)
-    short = RPHStriker(striker.foam, striker.mass, striker.impact_velocity, 0.5 * striker.stop_front)
+    short = RPHStriker(striker.material, striker.mass, striker.impact_velocity, 0.5 * striker.stop_front)
     assert float(short.history(short.end_time).front) == pytest.approx(short.length, rel=1e-9)
     with pytest.raises(ValueError, match=r"t = .*back"):
         short.history(1.01 * short.end_time)

@@ -1,0 +1,72 @@
+"""Plastic hardening without a plateau: R-PH at a finite modulus."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from hydro1d.analytic._checks import Array, positive, require
+from hydro1d.analytic.curves.base import Curve, below_one
+
+
+@dataclass(frozen=True)
+class RPH(Curve):
+    """Plastic hardening behind an elastic line: stress = min(E strain, plateau + hardening strain/(1 - strain)^2).
+
+    Source: Zheng, Wang, Yu, Reid & Harrigan, JMPS 2014, doi:10.1016/j.jmps.2014.07.013 (rigid there: E infinite).
+    density kg/m^3, modulus E, plateau_stress and hardening in Pa. The elastic line bounds the curve once more near
+    strain 1, hence the second corner. Raises ValueError where the modulus is so low that nothing ever yields.
+    """
+
+    density: float
+    modulus: float
+    plateau_stress: float
+    hardening: float
+
+    def __post_init__(self) -> None:
+        positive(self, "density", "modulus", "plateau_stress", "hardening")
+        peak = self._strain_farthest_below()
+        reached = peak > 0.0 and self._over_elastic(peak) < 0.0
+        require(reached, "modulus", self.modulus, "high enough for the elastic line to reach the hardening curve")
+        crossings = (
+            float(brentq(self._over_elastic, 0.0, peak, xtol=1e-17)),
+            float(brentq(self._over_elastic, peak, self.strain_limit, xtol=1e-16)),
+        )
+        object.__setattr__(self, "_corners", crossings)
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Strains between which the curve is concave-up."""
+        crossings: tuple[float, ...] = self.__dict__["_corners"]
+        return crossings
+
+    def _over_elastic(self, strain: float) -> float:
+        return float(self._hardening_stress(strain)) - self.modulus * strain
+
+    def _strain_farthest_below(self) -> float:
+        if self.hardening >= self.modulus:
+            return 0.0
+        return float(brentq(lambda e: self.modulus * (1.0 - e) ** 3 - self.hardening * (1.0 + e), 0.0, 1.0))
+
+    def _hardening_stress(self, strain: ArrayLike) -> Array:
+        strain = np.asarray(strain, dtype=float)
+        return self.plateau_stress + self.hardening * strain / np.square(1.0 - strain)
+
+    def stress(self, strain: ArrayLike) -> Array:
+        """Stress, Pa, shape of `strain`."""
+        return np.minimum(self.modulus * np.asarray(strain, dtype=float), self._hardening_stress(strain))
+
+    def tangent(self, strain: ArrayLike) -> Array:
+        """Slope of the curve, Pa, shape of `strain`."""
+        strain = np.asarray(strain, dtype=float)
+        plastic = (strain >= self.corners[0]) & (strain < self.corners[1])
+        return np.where(plastic, self.hardening * (1.0 + strain) / (1.0 - strain) ** 3, self.modulus)
+
+    def strain_at(self, stress: float) -> float:
+        """The strain that carries `stress` (Pa); ValueError where there is none."""
+        rise = max(stress - self.plateau_stress, 0.0)
+        root = math.sqrt(self.hardening * (4.0 * rise + self.hardening))
+        strain = max(stress / self.modulus, 2.0 * rise / (2.0 * rise + self.hardening + root))
+        return below_one(strain, stress)
