@@ -22,6 +22,7 @@ from hydro1d.state import State
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
 FEWEST_STEPS = 20  # a stretch keeps a copy of its start: not for every step of a huge column
 RETRIES = 3
+EASE = 1.0 / 16.0  # of the stable step, the first one under a load that jumps: what it will move is not moving yet
 SLOWEST_PACE = (
     1e-4  # of the first step: a zone crushed to next to nothing keeps its stiffness, and the run would never end
 )
@@ -104,7 +105,9 @@ def initial_state(column: Column, program: Program) -> State:
         velocity[node] = sign * speed
         state.memory[side, : len(memory)] = memory
     state.velocity[1:-1] = velocity
-    state.velocity[0], state.velocity[-1] = 2 * velocity[0] - velocity[1], 2 * velocity[-1] - velocity[-2]
+    carries = program.end_numbers[:, march.CARRIES]
+    state.velocity[0] = velocity[1] + carries[0] * (velocity[0] - velocity[1])
+    state.velocity[-1] = velocity[-2] + carries[1] * (velocity[-1] - velocity[-2])
     _first_step(column, program, state)
     kinetic = 0.5 * np.sum(column.node_mass * velocity**2)
     state.ledger[march.FIRST_ENERGY] = kinetic + np.sum(column.zone_mass * state.energy)
@@ -139,6 +142,7 @@ def set_ends(column: Column, program: Program) -> None:
         history = tuple(law.history.values())
         stress, _, stiffness, _, _ = law.point(0.0, 0.0, 0.0, law.initial_energy, history)
         program.end_numbers[side, 7:10] = math.sqrt(law.density * stiffness), stress, sign
+        program.end_numbers[side, march.CARRIES] = 2.0 if column.ends[side][2].gives_velocity else 0.0
 
 
 def solve(
@@ -186,6 +190,7 @@ class _Run:
         events = {*column.profile_times.tolist(), *column.corners, column.end_time}
         self.events = sorted(event for event in events if state.time < event <= column.end_time)
         self.profile_times = set(column.profile_times.tolist())
+        self.jumps = {0.0, *column.corners}
 
     def open(self) -> None:
         """Hand over the state at t = 0."""
@@ -197,6 +202,8 @@ class _Run:
     def to_end(self) -> Outcome:
         """Go from event to event."""
         for event in self.events:
+            if self.state.time in self.jumps:
+                self.ease_in()
             status = self.to_event(event)
             if status == march.PAUSED:
                 return self.outcome("interrupted")
@@ -206,6 +213,11 @@ class _Run:
                 self.sink.profile(frame(self.column, self.program, self.state))
             self.save_if_due()
         return self.outcome("complete")
+
+    def ease_in(self) -> None:
+        """Begin again with a short step, which then grows gently."""
+        ledger = self.state.ledger
+        ledger[march.FREE_STEP] = EASE * ledger[march.NEXT_STEP] / march.GROWTH
 
     def to_event(self, event: float) -> int:
         """Step to an event, looking up between stretches; PAUSED when asked to stop."""

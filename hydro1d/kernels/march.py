@@ -34,7 +34,8 @@ FIRST_ZONE, ZONES, PARAMETERS = range(3)
 LAYER = 3
 CRUSHED_STRAIN, TOP_STRAIN, SIZE, ZONE_MASS = range(zone_places.NUMBERS + 1, zone_places.NUMBERS + 5)
 NUMBERS = zone_places.NUMBERS + 5
-END = 10
+END = 11
+CARRIES = 10  # place behind the numbers of an `End`: 2 where the flow carries on beyond the end, 0 where it is mirrored
 BLOCK = 512  # zones whose arrays stay in the first-level cache between the node pass and the zone pass
 SCRATCH = zone_places.RESULTS  # where `out` goes on after the answers of a kernel
 OUT = SCRATCH + end_places.MEMORY
@@ -115,6 +116,7 @@ def march(
             addresses,
             parameters,
             numbers,
+            end_numbers,
             out,
             before,
             after,
@@ -259,6 +261,7 @@ def sweep(
     addresses: Any,
     parameters: Any,
     numbers: Any,
+    end_numbers: Any,
     out: Any,
     before: Any,
     after: Any,
@@ -297,8 +300,8 @@ def sweep(
                 after[i + 1] = before[i + 1] + kick * (force[i - 1] - force[i]) * inverse_mass[i]
                 displacement[i] += step * after[i + 1]
             node = max(node, ahead)
-            after[0] = 2.0 * after[1] - after[2]
-            after[zones + 2] = 2.0 * after[zones + 1] - after[zones]
+            after[0] = after[2] + end_numbers[CARRIES] * (after[1] - after[2])
+            after[zones + 2] = after[zones] + end_numbers[END + CARRIES] * (after[zones + 1] - after[zones])
             call(
                 addresses,
                 layer,

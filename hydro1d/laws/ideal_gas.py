@@ -21,6 +21,13 @@ class IdealGas(Law):
         modulus = self.gamma * pressure * inverse
         return pressure, modulus, modulus, True, history
 
+    def room(self, strain: float, closing: float) -> float:
+        """Makes (γ + 1)/4 of the default coefficient 2: half of a strong shock's own q, (γ + 1)/2 ρ Δv² (Kuropatenko 1967).
+
+        A gas does not lock, and keeps no overshoot as a foam does.
+        """
+        return (1.0 - strain) * 8.0 / (self.gamma + 1.0)
+
     @derived
     def initial_energy(self) -> float:
         """p/((γ − 1) ρ0), J/kg."""
