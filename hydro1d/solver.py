@@ -13,7 +13,7 @@ import numpy as np
 from hydro1d.boundaries.base import Boundary
 from hydro1d.column import Column, initial_velocities
 from hydro1d.errors import DeckError
-from hydro1d.kernels import march
+from hydro1d.kernels import layout, march
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.ends import MEMORY
 from hydro1d.kernels.program import Program
@@ -80,21 +80,21 @@ def initial_state(column: Column, program: Program) -> State:
     zones, slabs = column.zones, column.slabs
     variables = 1 + max(len(slab.law.history) for slab in slabs)
     state = State(
-        ledger=np.zeros(march.LEDGER),
+        ledger=np.zeros(layout.LEDGER),
         velocity=np.zeros(zones + 3),
         displacement=np.zeros(zones + 1),
         energy=np.zeros(zones),
         force=np.zeros(zones),
         material=np.zeros((variables, zones)),
         memory=np.zeros((2, MEMORY)),
-        numbers=np.zeros((len(slabs), march.NUMBERS)),
+        numbers=np.zeros((len(slabs), layout.NUMBERS)),
     )
     viscosity = column.viscosity.coefficients()
     for slab, numbers in zip(slabs, state.numbers, strict=True):
         density = slab.law.density
         numbers[: zone_places.NUMBERS] = (0.0, 0.0, 1.0 / slab.size, 1.0 / density, density, *viscosity)
-        numbers[march.CRUSHED_STRAIN], numbers[march.SIZE] = slab.law.crushed_strain, slab.size
-        numbers[march.ZONE_MASS] = slab.size * density
+        numbers[layout.CRUSHED_STRAIN], numbers[layout.SIZE] = slab.law.crushed_strain, slab.size
+        numbers[layout.ZONE_MASS] = slab.size * density
         state.energy[slab.part] = slab.law.initial_energy
         for k, value in enumerate(slab.law.history.values()):
             state.material[1 + k, slab.part] = value
@@ -105,12 +105,10 @@ def initial_state(column: Column, program: Program) -> State:
         velocity[node] = sign * speed
         state.memory[side, : len(memory)] = memory
     state.velocity[1:-1] = velocity
-    carries = program.end_numbers[:, march.CARRIES]
-    state.velocity[0] = velocity[1] + carries[0] * (velocity[0] - velocity[1])
-    state.velocity[-1] = velocity[-2] + carries[1] * (velocity[-1] - velocity[-2])
+    state.velocity[0], state.velocity[-1] = velocity[1], velocity[-2]
     _first_step(column, program, state)
     kinetic = 0.5 * np.sum(column.node_mass * velocity**2)
-    state.ledger[march.FIRST_ENERGY] = kinetic + np.sum(column.zone_mass * state.energy)
+    state.ledger[layout.FIRST_ENERGY] = kinetic + np.sum(column.zone_mass * state.energy)
     return state
 
 
@@ -128,11 +126,11 @@ def _first_step(column: Column, program: Program, state: State) -> None:
         out = program.sweep_layer(state, layer, slab.zones, state.force)
         speed = out[zone_places.VISCOUS_SPEED]
         stable = min(stable, slab.size / (math.sqrt(out[zone_places.STIFFNESS] + speed**2) + speed))
-        state.ledger[march.PEAK_STRESS] = max(state.ledger[march.PEAK_STRESS], out[zone_places.STRESS])
-    state.ledger[march.CFL] = column.cfl
-    state.ledger[march.NEXT_STEP] = state.ledger[march.FIRST_STEP] = column.cfl * stable
-    state.ledger[march.RIGHT_FRONT] = column.zones
-    state.ledger[march.PEAK_LEFT], state.ledger[march.PEAK_RIGHT] = state.force[0], state.force[-1]
+        state.ledger[layout.PEAK_STRESS] = max(state.ledger[layout.PEAK_STRESS], out[zone_places.STRESS])
+    state.ledger[layout.CFL] = column.cfl
+    state.ledger[layout.NEXT_STEP] = state.ledger[layout.FIRST_STEP] = column.cfl * stable
+    state.ledger[layout.RIGHT_FRONT] = column.zones
+    state.ledger[layout.PEAK_LEFT], state.ledger[layout.PEAK_RIGHT] = state.force[0], state.force[-1]
 
 
 def set_ends(column: Column, program: Program) -> None:
@@ -142,7 +140,6 @@ def set_ends(column: Column, program: Program) -> None:
         history = tuple(law.history.values())
         stress, _, stiffness, _, _ = law.point(0.0, 0.0, 0.0, law.initial_energy, history)
         program.end_numbers[side, 7:10] = math.sqrt(law.density * stiffness), stress, sign
-        program.end_numbers[side, march.CARRIES] = 2.0 if column.ends[side][2].gives_velocity else 0.0
 
 
 def solve(
@@ -205,9 +202,9 @@ class _Run:
             if self.state.time in self.jumps:
                 self.ease_in()
             status = self.to_event(event)
-            if status == march.PAUSED:
+            if status == layout.PAUSED:
                 return self.outcome("interrupted")
-            if status != march.REACHED:
+            if status != layout.REACHED:
                 return self.broken(status)
             if event in self.profile_times:
                 self.sink.profile(frame(self.column, self.program, self.state))
@@ -217,20 +214,20 @@ class _Run:
     def ease_in(self) -> None:
         """Begin again with a short step, which then grows gently."""
         ledger = self.state.ledger
-        ledger[march.FREE_STEP] = EASE * ledger[march.NEXT_STEP] / march.GROWTH
+        ledger[layout.FREE_STEP] = EASE * ledger[layout.NEXT_STEP] / march.GROWTH
 
     def to_event(self, event: float) -> int:
         """Step to an event, looking up between stretches; PAUSED when asked to stop."""
-        status = march.PAUSED
-        while status == march.PAUSED and not self.asked_to_stop():
+        status = layout.PAUSED
+        while status == layout.PAUSED and not self.asked_to_stop():
             status = self.stretch(event)
-            if status > march.PAUSED:
+            if status > layout.PAUSED:
                 return status
-            if self.state.ledger[march.ROWS] > 0:
+            if self.state.ledger[layout.ROWS] > 0:
                 self.sink.history(*self.program.recorded(self.state))
             if self.progress is not None:
                 self.progress(self.state)
-            if status == march.PAUSED:  # at an event its profile comes first
+            if status == layout.PAUSED:  # at an event its profile comes first
                 self.save_if_due()
         return status
 
@@ -238,24 +235,24 @@ class _Run:
         """One call of the time loop, tried again with shorter steps if it breaks down."""
         start = self.state.copy()
         for attempt in range(RETRIES + 1):
-            self.state.ledger[march.CFL] = self.column.cfl * 0.5**attempt
-            self.state.ledger[march.NEXT_STEP] *= 0.5**attempt
+            self.state.ledger[layout.CFL] = self.column.cfl * 0.5**attempt
+            self.state.ledger[layout.NEXT_STEP] *= 0.5**attempt
             begun = time.perf_counter()
             status = self.program.advance(
                 self.state, stop=event, steps=self.steps_per_call(), row_at_stop=event == self.column.end_time
             )
             self.loop_seconds += time.perf_counter() - begun
-            if status <= march.PAUSED or attempt == RETRIES:
+            if status <= layout.PAUSED or attempt == RETRIES:
                 break
             self.state.assign(start)
-        self.state.ledger[march.CFL] = self.column.cfl
-        return march.COLLAPSED if status == march.PAUSED and self.is_stuck(start) else status
+        self.state.ledger[layout.CFL] = self.column.cfl
+        return layout.COLLAPSED if status == layout.PAUSED and self.is_stuck(start) else status
 
     def is_stuck(self, start: State) -> bool:
         """Whether the steps of a stretch were so short, on the mean, that the end is out of reach."""
         taken = self.state.cycle - start.cycle
         pace = (self.state.time - start.time) / max(taken, 1)
-        return taken >= 1000 and pace < SLOWEST_PACE * self.state.ledger[march.FIRST_STEP]
+        return taken >= 1000 and pace < SLOWEST_PACE * self.state.ledger[layout.FIRST_STEP]
 
     def steps_per_call(self) -> int:
         """So many that the user does not wait and the rows fit; stretches end at fixed cycles, so a restart meets them."""
@@ -291,9 +288,9 @@ class _Run:
         bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.energy)
         zone = int(np.argmax(bad)) if bad.any() else int(np.argmax(strain))
         cause = {
-            march.INVERTED: f"the zone is inverted: its strain reached {strain[zone]:.6g}",
-            march.NOT_FINITE: f"the state is not finite; the zone's strain is {strain[zone]:.6g}",
-            march.COLLAPSED: f"the time step collapsed to {state.ledger[march.NEXT_STEP]:.3g} s; the largest strain is "
+            layout.INVERTED: f"the zone is inverted: its strain reached {strain[zone]:.6g}",
+            layout.NOT_FINITE: f"the state is not finite; the zone's strain is {strain[zone]:.6g}",
+            layout.COLLAPSED: f"the time step collapsed to {state.ledger[layout.NEXT_STEP]:.3g} s; the largest strain is "
             f"{strain[zone]:.6g}",
         }[status]
         law = self.column.slabs[int(self.column.zone_layer[zone])].law
@@ -302,7 +299,7 @@ class _Run:
 
 def frame(column: Column, program: Program, state: State) -> Frame:
     """Profiles of the state, all at the time of the stresses: velocities and energies half a kick on."""
-    ledger, half = state.ledger, 0.5 * state.ledger[march.LAST_STEP]
+    ledger, half = state.ledger, 0.5 * state.ledger[layout.LAST_STEP]
     scratch = state.copy()
     velocity, centred = state.velocity[1:-1].copy(), _centred(program, scratch)
     strain = np.empty(column.zones)
@@ -328,7 +325,7 @@ def frame(column: Column, program: Program, state: State) -> Frame:
         for slab in column.slabs:
             if name in slab.law.history:
                 fields[name][slab.part] = state.material[1 + list(slab.law.history).index(name), slab.part]
-    return Frame(float(ledger[march.TIME]), state.cycle, fields)
+    return Frame(float(ledger[layout.TIME]), state.cycle, fields)
 
 
 def _centred(program: Program, scratch: State) -> np.ndarray:

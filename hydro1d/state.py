@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from hydro1d.kernels import march
+from hydro1d.kernels import layout
 from hydro1d.kernels.memory import placed
 
 
@@ -56,9 +56,9 @@ class State:
     @property
     def time(self) -> float:
         """Time of the stresses, s."""
-        return float(self.ledger[march.TIME])
+        return float(self.ledger[layout.TIME])
 
     @property
     def cycle(self) -> int:
         """Number of steps taken."""
-        return int(self.ledger[march.CYCLE])
+        return int(self.ledger[layout.CYCLE])

@@ -1,8 +1,9 @@
 """Which artificial viscosity leaves a compaction front with the right state behind it, for every foam law?
 
-Pressure steps and pistons on one layer, measured against the exact step solution: the front when it has crossed a third of the
-column, and the state of that third when it has crossed half. A front of a nearly linear wave is dozens of zones wide, and a
-zone is judged by what the front leaves, not by how it is passing. Run ``python tools/viscosity_study.py --help``; the table goes to standard output.
+Pressure steps and pistons on one layer, measured against the exact step solution: the front when it has crossed a third of
+the column, and the state of that third when it has crossed half. A front of a nearly linear wave is dozens of zones wide,
+and a zone is judged by what the front leaves, not by how it is passing. Run ``python tools/viscosity_study.py --help``; the
+table goes to standard output.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.pulses.constant import Constant
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.column import build_column
-from hydro1d.kernels import march
+from hydro1d.kernels import layout
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.epph_tangent import EPPHTangent
 from hydro1d.laws.eppr import EPPR
@@ -112,7 +113,7 @@ def run(law, exact, boundary, viscosity: Viscosity, zones: int = 1000, cfl: floa
         "median_stress": np.median(stress[5:]) / behind.stress - 1.0,
         "first": error[:5][np.argmax(np.abs(error[:5]))],
         "rest": error[5:][np.argmax(np.abs(error[5:]))],
-        "peak": outcome.state.ledger[march.PEAK_STRESS] / behind.stress - 1.0,
+        "peak": outcome.state.ledger[layout.PEAK_STRESS] / behind.stress - 1.0,
         "front": front_error(exact.jumps()[-1], sink.fields[0]["strain"], speed * end * zones),
         "cycles": outcome.cycles,
     }

@@ -72,7 +72,7 @@ MEANING = {
     "tension": "whether the foam bears tension",
     "negative_phase": "keep the pressure below zero after the positive phase",
     "bonded": "whether the wall holds the end in tension too",
-    "kind": "`\"none\"` switches the viscosity off: a chain of masses and springs",
+    "kind": '`"none"` switches the viscosity off: a chain of masses and springs',
 }
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from hydro1d.kernels import march
+from hydro1d.kernels import layout
 from hydro1d.kernels.program import Program
 from hydro1d.laws.epph import EPPH
 from hydro1d.state import State
@@ -29,13 +29,13 @@ class Baseline:
 
     def _step(self, s: State) -> None:
         g, mass = s.ledger, self.column.node_mass
-        step = min(g[march.NEXT_STEP], 1.1 * g[march.FREE_STEP])
-        g[march.FREE_STEP] = step
-        last = g[march.LAST_STEP]
+        step = min(g[layout.NEXT_STEP], 1.1 * g[layout.FREE_STEP])
+        g[layout.FREE_STEP] = step
+        last = g[layout.LAST_STEP]
         kick = 0.5 * (last + step)
         before = s.velocity[1:-1]
         push = np.zeros(len(mass))
-        early, late = g[march.TIME] - 0.25 * last, g[march.TIME] + 0.25 * step
+        early, late = g[layout.TIME] - 0.25 * last, g[layout.TIME] + 0.25 * step
         push[0] = (self.pulse.pressure(early) * last + self.pulse.pressure(late) * step) / (last + step)
         push[:-1] -= s.force
         push[1:] += s.force
@@ -44,9 +44,9 @@ class Baseline:
         s.displacement += step * velocity
         self._zones(s, before, velocity, step, kick)
         s.velocity[1:-1] = velocity
-        s.velocity[0], s.velocity[-1] = 2.0 * velocity[0] - velocity[1], 2.0 * velocity[-1] - velocity[-2]
-        g[march.TIME] += step
-        g[march.LAST_STEP] = step
+        s.velocity[0], s.velocity[-1] = velocity[1], velocity[-2]
+        g[layout.TIME] += step
+        g[layout.LAST_STEP] = step
 
     def _zones(self, s: State, before: np.ndarray, velocity: np.ndarray, step: float, kick: float) -> None:
         law, size = self.law, self.slab.size
@@ -64,9 +64,10 @@ class Baseline:
         stiffness = np.where(smooth, law.modulus, np.maximum(law.unloading_stiffness, tangent))
         loaded = np.minimum(law.modulus * top, law.plateau_stress) + extra
         stress = np.maximum(loaded - stiffness * (top - strain), 0.0)
-        around = np.concatenate([jump[:1], jump, jump[-1:]])
+        around = np.concatenate([-jump[:1], jump, -jump[-1:]])
         left, right = around[:-2], around[2:]
-        shared = np.maximum(np.minimum(np.minimum(0.5 * (left + right), 2.0 * np.minimum(left, right)), jump), 0.0)
+        both, span = np.maximum(left, 0.0) * np.maximum(right, 0.0), left + right
+        shared = np.minimum(both * span / (span**2 - 2.0 * both + 1e-300), np.maximum(jump, 0.0))
         closing = np.maximum(jump, 0.0) - np.where(smooth, shared, 0.0)
         beyond = np.minimum(law.hardening_strain, closing * law.hardening_slowness + 1e-30)
         room = np.minimum(1.0 - strain, np.maximum(law.densification - strain, 0.0) + beyond)
@@ -75,4 +76,4 @@ class Baseline:
         s.force[:] = stress + np.where(stress > 0.0, law.density * closing * speed, 0.0)
         fastest = float((speed + crowding).max())
         stable = size / (math.sqrt(stiffness.max() / law.density + fastest**2) + fastest)
-        s.ledger[march.NEXT_STEP] = s.ledger[march.CFL] * stable
+        s.ledger[layout.NEXT_STEP] = s.ledger[layout.CFL] * stable

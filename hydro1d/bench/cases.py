@@ -11,7 +11,7 @@ from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.wall import Wall
 from hydro1d.column import Column, build_column
-from hydro1d.kernels import march
+from hydro1d.kernels import layout
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.program import Program
 from hydro1d.laws.base import Law
@@ -50,9 +50,7 @@ def laws(name: str) -> list[Law]:
     return [tangent, power, rph]
 
 
-def column(
-    name: str, zones: int, *, parts: int = 1, end: float = 1.0, history: int = 0, **output: object
-) -> Column:
+def column(name: str, zones: int, *, parts: int = 1, end: float = 1.0, history: int = 0, **output: object) -> Column:
     """One metre of the case's materials, in layers of equal thickness; each zone cut into ``parts``."""
     found = laws(name)
     shares = [zones // len(found)] * len(found)
@@ -78,10 +76,10 @@ def stations(name: str, zones: int, count: int = 4) -> tuple[Program, list[State
     states = []
     state = _begun(coarse)
     for k in range(count):
-        status = march.PAUSED
-        while status == march.PAUSED:
+        status = layout.PAUSED
+        while status == layout.PAUSED:
             status = coarse.advance(state, stop=end * (k + 0.5) / count, steps=1_000_000, row_at_stop=False)
-        if status != march.REACHED:
+        if status != layout.REACHED:
             raise RuntimeError(f"{name}, {zones} zones: the run broke down at {state.time:.3g} s")
         states.append(refined(state, parts) if parts > 1 else state.copy())
     set_ends(program.column, program)
@@ -101,20 +99,19 @@ def refined(state: State, parts: int) -> State:
     zones = len(state.energy)
     nodes, fine = np.arange(zones + 1.0), np.linspace(0.0, zones, zones * parts + 1)
     velocity = np.interp(fine, nodes, state.velocity[1:-1])
-    ghosts = (2 * velocity[0] - velocity[1], 2 * velocity[-1] - velocity[-2])
     ledger = state.ledger.copy()
-    for place in (march.LAST_STEP, march.FREE_STEP, march.NEXT_STEP, march.FIRST_STEP):
+    for place in (layout.LAST_STEP, layout.FREE_STEP, layout.NEXT_STEP, layout.FIRST_STEP):
         ledger[place] /= parts
     numbers = state.numbers.copy()
     numbers[:, zone_places.INVERSE_SIZE] *= parts
-    for place in (march.SIZE, march.ZONE_MASS):
+    for place in (layout.SIZE, layout.ZONE_MASS):
         numbers[:, place] /= parts
     return State.from_arrays(
         arrays
         | {
             "ledger": ledger,
             "numbers": numbers,
-            "velocity": np.concatenate([ghosts[:1], velocity, ghosts[1:]]),
+            "velocity": np.concatenate([velocity[1:2], velocity, velocity[-2:-1]]),
             "displacement": np.interp(fine, nodes, state.displacement),
             "energy": np.repeat(state.energy, parts),
             "force": np.repeat(state.force, parts),

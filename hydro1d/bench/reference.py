@@ -14,7 +14,7 @@ import numpy as np
 
 from hydro1d.bench.cases import GAS_PULSE, PULSE
 from hydro1d.bench.power_foam import PowerFoam
-from hydro1d.kernels import march
+from hydro1d.kernels import layout
 from hydro1d.kernels.program import Program
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.epph_tangent import EPPHTangent
@@ -123,10 +123,10 @@ class Reference:
         column, old = self.program.column, state.ledger
         pulse = GAS_PULSE if isinstance(column.slabs[0].law, IdealGas) else PULSE
         ledger = _Ledger(
-            time=old[march.TIME], last_step=old[march.LAST_STEP], free_step=old[march.FREE_STEP],
-            next_step=old[march.NEXT_STEP], stop=stop, cfl=old[march.CFL], work=old[march.WORK],
-            viscous_work=old[march.VISCOUS_WORK], top_stress=old[march.PEAK_STRESS], top_left=old[march.PEAK_LEFT],
-            top_right=old[march.PEAK_RIGHT], top_strain=0.0, **pulse,
+            time=old[layout.TIME], last_step=old[layout.LAST_STEP], free_step=old[layout.FREE_STEP],
+            next_step=old[layout.NEXT_STEP], stop=stop, cfl=old[layout.CFL], work=old[layout.WORK],
+            viscous_work=old[layout.VISCOUS_WORK], top_stress=old[layout.PEAK_STRESS], top_left=old[layout.PEAK_LEFT],
+            top_right=old[layout.PEAK_RIGHT], top_strain=0.0, **pulse,
         )  # fmt: skip
         arrays = (state.velocity, self.room, state.displacement, state.energy, state.force, state.material,
                   column.node_mass, self.program.inverse_mass)  # fmt: skip
@@ -134,9 +134,9 @@ class Reference:
             ctypes.byref(ledger), ctypes.byref(self.layers), len(self.layers), column.zones, steps,
             *(array.ctypes.data for array in arrays),
         )  # fmt: skip
-        old[march.TIME], old[march.LAST_STEP], old[march.NEXT_STEP] = ledger.time, ledger.last_step, ledger.next_step
-        old[march.WORK], old[march.VISCOUS_WORK] = ledger.work, ledger.viscous_work
-        old[march.PEAK_STRESS] = ledger.top_stress
+        old[layout.TIME], old[layout.LAST_STEP], old[layout.NEXT_STEP] = ledger.time, ledger.last_step, ledger.next_step
+        old[layout.WORK], old[layout.VISCOUS_WORK] = ledger.work, ledger.viscous_work
+        old[layout.PEAK_STRESS] = ledger.top_stress
 
 
 def difference(one: State, other: State) -> float:

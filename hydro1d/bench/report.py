@@ -51,7 +51,9 @@ def run(quick: bool, tell: Callable[[str], None]) -> dict[str, Any]:
         tell(f"{name}: {found['processes'][name]:.2f}")
     found["linearity"] = measure.linearity(1e5 if quick else 1e7, repetitions)
     for row in found["linearity"]:
-        tell(f"epph {row['zones']:9d} zones: {row['ns']:7.2f} ns per zone-cycle, {row['bytes_per_zone']:6.0f} bytes per zone")
+        tell(
+            f"epph {row['zones']:9d} zones: {row['ns']:7.2f} ns per zone-cycle, {row['bytes_per_zone']:6.0f} bytes per zone"
+        )
     return found
 
 

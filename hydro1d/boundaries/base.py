@@ -38,7 +38,6 @@ class Boundary(Component):
     """Base of all boundaries. `memory` names the variables that a boundary keeps, with units, for the history."""
 
     memory: ClassVar[dict[str, str]] = {}
-    gives_velocity: ClassVar[bool] = True  # else a stress, and the motion beyond the end mirrors that within
 
     def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Advance the end node over one step.

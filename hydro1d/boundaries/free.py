@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from hydro1d.boundaries.base import Boundary, End, free_velocity
 
 
 class Free(Boundary):
     """No force on the end."""
-
-    gives_velocity: ClassVar[bool] = False
 
     def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Free flight under the zone's own stress."""

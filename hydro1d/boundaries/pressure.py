@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from hydro1d.boundaries.base import Boundary, End, free_velocity
 from hydro1d.boundaries.pulses.base import Pulse
 
@@ -12,7 +10,6 @@ class Pressure(Boundary):
     """The pressure of a pulse acts on the end."""
 
     pulse: Pulse
-    gives_velocity: ClassVar[bool] = False
 
     def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Each half of the kick takes the pressure at its own middle, so a jump at a step's end acts in full."""

@@ -21,9 +21,7 @@ def end_kernel(unpack: Callable, memory_count: tuple[float, ...]) -> Callable:
     def kick(parameters: Any, state: Any, memory: Any, out: Any) -> None:
         """New velocity and force (inward) from the ten numbers of an `End`; the memory is advanced in place."""
         boundary = unpack(parameters)
-        end = End(
-            state[0], state[1], state[2], state[3], state[4], state[5], state[6], state[7], state[8], state[9]
-        )
+        end = End(state[0], state[1], state[2], state[3], state[4], state[5], state[6], state[7], state[8], state[9])
         velocity, force, remembered = boundary.kick(end, gather(memory, 0, 1, memory_count))
         scatter(memory, 0, 1, remembered)
         out[VELOCITY] = velocity

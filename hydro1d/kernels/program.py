@@ -9,7 +9,7 @@ import numpy as np
 
 from hydro1d.boundaries.base import Boundary
 from hydro1d.column import Column
-from hydro1d.kernels import build, march, records
+from hydro1d.kernels import build, layout, march, records
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.memory import placed
@@ -32,16 +32,16 @@ class Program:
         self._components = components
         parameters = [records.pack(component) for component in components]
         starts = np.cumsum([0, *(len(vector) for vector in parameters)])
-        self.layers = np.zeros((len(components), march.LAYER), dtype=np.int64)
-        self.layers[:, march.PARAMETERS] = starts[:-1]
+        self.layers = np.zeros((len(components), layout.LAYER), dtype=np.int64)
+        self.layers[:, layout.PARAMETERS] = starts[:-1]
         for row, slab in zip(self.layers, column.slabs, strict=False):
-            row[march.FIRST_ZONE], row[march.ZONES] = slab.first, slab.zones
+            row[layout.FIRST_ZONE], row[layout.ZONES] = slab.first, slab.zones
         self.parameters = np.concatenate(parameters)
-        self.out = np.zeros(march.OUT)
+        self.out = np.zeros(layout.OUT)
         self.spare = placed(np.zeros(zones + 3), 5, 2)
         self.inverse_mass = placed(1.0 / column.node_mass, 6, 1)
         self.curve, self.tangents, self.stiffnesses, self.speeds = (placed(np.zeros(zones), 7 + k) for k in range(4))
-        self.end_numbers = np.zeros((2, march.END))
+        self.end_numbers = np.zeros((2, layout.END))
         self.columns = len(column.history_variables) - _remembered(column) + 2 * end_places.MEMORY
         self.row_capacity = row_capacity
         self.rows = np.zeros((row_capacity + 1, self.columns))
@@ -61,13 +61,13 @@ class Program:
             return
         self.addresses = np.array([where for _, where in kernels], dtype=np.int64)
         self._zone_functions = [build.function(int(where), zone_places.SIGNATURE) for _, where in kernels[: len(slabs)]]
-        self._march = build.function(march_address(), march.SIGNATURE)
+        self._march = build.function(march_address(), layout.SIGNATURE)
 
     def advance(self, state: State, *, stop: float, steps: int, row_at_stop: bool) -> int:
         """Step until ``stop`` (s), ``steps`` steps or full rows; returns a status of `kernels.march`."""
         ledger = state.ledger
-        ledger[march.STOP], ledger[march.STEPS], ledger[march.CADENCE] = stop, steps, self.column.history_every
-        ledger[march.ROW_AT_STOP], ledger[march.ROWS] = row_at_stop, self.row_capacity
+        ledger[layout.STOP], ledger[layout.STEPS], ledger[layout.CADENCE] = stop, steps, self.column.history_every
+        ledger[layout.ROW_AT_STOP], ledger[layout.ROWS] = row_at_stop, self.row_capacity
         arrays = (
             ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
             state.velocity, self.spare, state.displacement, state.energy, state.force, state.material, self.curve,
@@ -75,11 +75,11 @@ class Program:
             self.column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
         )  # fmt: skip
         self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
-        return int(ledger[march.STATUS])
+        return int(ledger[layout.STATUS])
 
     def recorded(self, state: State) -> tuple[np.ndarray, np.ndarray]:
         """Rows of history and probes that the last `advance` recorded, as the history shows them."""
-        count = int(state.ledger[march.ROWS])
+        count = int(state.ledger[layout.ROWS])
         rows = self.rows[:count]
         first = self.columns - 2 * end_places.MEMORY
         parts = [rows[:, :first]]
@@ -95,12 +95,12 @@ class Program:
         first = self.column.slabs[layer].first
         state.numbers[layer, zone_places.AFRESH] = 1.0
         arrays = (
-            self.parameters[self.layers[layer, march.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
+            self.parameters[self.layers[layer, layout.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
             state.velocity[first:], state.displacement[first:], state.energy[first:], force[first:],
             state.material.reshape(-1)[first:], self.curve[first:], self.tangents[first:],
             self.stiffnesses[first:], self.speeds[first:],
         )  # fmt: skip
-        out = np.zeros(march.OUT)
+        out = np.zeros(layout.OUT)
         self._zone_functions[layer](*_pointers(arrays), zones, self.column.zones, *_pointers((out,)))
         return out
 
@@ -178,4 +178,4 @@ def _shape(component: Component, members: dict[str, Any]) -> str:
 
 def march_address() -> int:
     """Address of the time loop, which is the same for all columns."""
-    return build.address("march", march.SIGNATURE, "", lambda: march.march)
+    return build.address("march", layout.SIGNATURE, "", lambda: march.march)

@@ -194,8 +194,8 @@ def shared_jump(velocity: Any, i: int, jump: float) -> float:
     leaves noise behind from zone to zone.
     """
     left, right = velocity[i] - velocity[i + 1], velocity[i + 2] - velocity[i + 3]
-    both = max(left, 0.0) * max(right, 0.0)
-    return min(both * (left + right) / (left * left + right * right + 1e-300), max(jump, 0.0))
+    both, span = max(left, 0.0) * max(right, 0.0), left + right
+    return min(both * span / (span * span - 2.0 * both + 1e-300), max(jump, 0.0))
 
 
 def coming_jump(before: float, jump: float) -> float:

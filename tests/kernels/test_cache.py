@@ -105,9 +105,7 @@ def copied(cache: Path, to: Path) -> Path:
 
 
 @pytest.mark.parametrize("damage", ["empty", "digest", "half", "bit"])
-def test_damaged_entries_are_compiled_again(
-    damage: str, filled: tuple[Path, Path, float], tmp_path: Path
-) -> None:
+def test_damaged_entries_are_compiled_again(damage: str, filled: tuple[Path, Path, float], tmp_path: Path) -> None:
     folder, cache, force = filled
     entry = copied(cache, tmp_path)
     whole = entry.read_bytes()

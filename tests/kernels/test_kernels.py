@@ -19,7 +19,7 @@ from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.wall import Wall
 from hydro1d.column import build_column
-from hydro1d.kernels import march
+from hydro1d.kernels import layout
 from hydro1d.kernels.memory import placed
 from hydro1d.kernels.program import Program
 from hydro1d.laws._cotangent import cotangent
@@ -80,7 +80,7 @@ def test_bits_do_not_depend_on_how_often_one_looks(name: str) -> None:
     for steps in (1, 2, 97, 300, 500):
         again.advance(other, stop=1.0, steps=steps, row_at_stop=False)
     for key, array in state.arrays().items():
-        part = slice(march.STOP if key == "ledger" else None)  # beyond is what the calls asked for
+        part = slice(layout.STOP if key == "ledger" else None)  # beyond is what the calls asked for
         np.testing.assert_array_equal(array[part], getattr(other, key)[part], err_msg=key)
 
 
@@ -90,7 +90,8 @@ def test_bits_do_not_depend_on_layers() -> None:
     answers = []
     for parts in ([300], [100, 200], [7, 93, 130, 70]):
         layers = [
-            SimpleNamespace(material="foam", law=law, thickness=zones / 256.0, zones=zones, velocity=0.0) for zones in parts
+            SimpleNamespace(material="foam", law=law, thickness=zones / 256.0, zones=zones, velocity=0.0)
+            for zones in parts
         ]
         program, state = started(build_column(layers, Pressure(pulse=pulse), Wall(), end=1.0))
         program.advance(state, stop=1.0, steps=2000, row_at_stop=False)

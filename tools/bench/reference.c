@@ -93,10 +93,13 @@ INLINE void zone_loop(const int64_t law, const Layer *given, int64_t first, int6
             stress = larger(stress - stiffness * (largest - strain), 0.0);
         }
         double left = v[i] - v[i + 1], right = v[i + 2] - v[i + 3];
-        double shared = larger(smaller(smaller(0.5 * (left + right), 2.0 * smaller(left, right)), jump), 0.0);
+        double both = larger(left, 0.0) * larger(right, 0.0), span = left + right;
+        double shared = smaller(both * span / (span * span - 2.0 * both + 1e-300), larger(jump, 0.0));
         double closing = larger(jump, 0.0) - (smooth ? shared : 0.0);
         room = 1.0 - strain;
-        if (law != IDEAL_GAS) {
+        if (law == IDEAL_GAS) {
+            room *= 8.0 / (m->a + 1.0);
+        } else {
             double beyond = smaller(m->hardening_strain, closing * m->slowness + 1e-30);
             double locked = larger(m->densification - strain, 0.0) + beyond;
             room = smaller(room, m->locks > 0.0 ? locked : 1.0);
@@ -107,7 +110,7 @@ INLINE void zone_loop(const int64_t law, const Layer *given, int64_t first, int6
         double viscosity = parted ? 0.0 : m->density * closing * speed;
         top[i] = largest;
         f[i] = stress + viscosity;
-        power += viscosity * jump;
+        power += viscosity * (1.5 * jump - 0.5 * before);
         most_stiff = larger(most_stiff, stiffness);
         most_speed = larger(most_speed, speed + crowding);
         most_stress = larger(most_stress, stress);
@@ -172,8 +175,7 @@ void march(Ledger *g, const Layer *layers, int64_t layer_count, int64_t zones, i
                 int64_t ahead = end + 2 < zones ? end + 2 : zones;
                 node_loop(node, ahead, step, kick, after, before, u, f, im);
                 if (ahead > node) node = ahead;
-                after[0] = 2.0 * after[1] - after[2];
-                after[zones + 2] = 2.0 * after[zones + 1] - after[zones];
+                after[0] = after[2], after[zones + 2] = after[zones];
                 loops[m->law](m, start, end, step, kick, after, before, u, e, f, top, out);
             }
             double d = out[1];

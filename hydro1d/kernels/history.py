@@ -1,0 +1,217 @@
+"""A row of the history, all of it at the time of the stresses: energies, momentum, fronts, and what the probes see."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from hydro1d.kernels.ends import FORCE, MEMORY, VELOCITY
+from hydro1d.kernels.layout import (
+    CRUSHED_STRAIN,
+    END,
+    FIRST_ENERGY,
+    FIRST_ZONE,
+    IMPULSE,
+    LARGEST_INPUT,
+    LAST_STEP,
+    LAYER,
+    LEFT_FRONT,
+    NUMBERS,
+    PARAMETERS,
+    PEAK_LEFT,
+    PEAK_RIGHT,
+    PEAK_STRESS,
+    RIGHT_FRONT,
+    SCRATCH,
+    SIZE,
+    TIME,
+    TOP_STRAIN,
+    VISCOUS_WORK,
+    WORK,
+    ZONE_MASS,
+    ZONES,
+    Arrays,
+)
+from hydro1d.kernels.primitives import accumulate, call, offset
+from hydro1d.kernels.zones import INVERSE_SIZE
+
+WINDOW = 12  # zones on either side of a front that its integral measure takes in
+
+
+def record(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
+    """One row of the history, and of the probes. The state is not touched; `centred` takes the velocities at that time."""
+    ledger, half = a.ledger, 0.5 * a.ledger[LAST_STEP]
+    row = offset(a.rows, place * a.columns)
+    work, impulse = centre_ends(a, velocity, centred, half)
+    kinetic, momentum, exchange = centre_nodes(a, velocity, centred, half)
+    stored, uncrushed = sum_zones(a)
+    internal = stored - 0.5 * half * exchange
+    put_in = ledger[FIRST_ENERGY] + max(ledger[LARGEST_INPUT], work)
+    row[0], row[1] = ledger[TIME], ledger[LAST_STEP]
+    row[2], row[3] = a.force[0], a.force[a.zones - 1]
+    row[4], row[5] = centred[1], centred[a.zones + 1]
+    row[6], row[7] = a.coordinate[0] + a.displacement[0], a.coordinate[a.zones] + a.displacement[a.zones]
+    row[8], row[9], row[10], row[11] = kinetic, internal, work, ledger[VISCOUS_WORK]
+    row[12] = (kinetic + internal - ledger[FIRST_ENERGY] - work) / put_in if put_in > 0.0 else 0.0
+    row[13], row[14] = momentum, impulse
+    row[15], row[16], row[17] = ledger[PEAK_STRESS], ledger[PEAK_LEFT], ledger[PEAK_RIGHT]
+    row[18], row[19] = fronts(a)
+    row[20] = uncrushed
+    for k in range(2 * MEMORY):
+        row[21 + k] = a.memory[k]
+    for k in range(a.probes[0]):
+        look(a, k, velocity, centred, half, offset(a.probe_rows, (place * a.probes[0] + k) * 4))
+
+
+def push_end(a: Arrays, side: int, velocity: Any, memory: Any, step: float) -> None:
+    """Call the boundary of a side: `out` holds the new velocity of its node and its force, both inward."""
+    node, zone, sign = (0, 0, 1.0) if side == 0 else (a.zones, a.zones - 1, -1.0)
+    end = offset(a.end_numbers, side * END)
+    end[0], end[1], end[2] = a.ledger[TIME], a.ledger[LAST_STEP], step
+    end[3], end[4] = sign * velocity[node + 1], sign * a.displacement[node]
+    end[5], end[6] = a.mass[node], a.force[zone]
+    which = a.layer_count + side
+    call(a.addresses, which, offset(a.parameters, a.layers[which * LAYER + PARAMETERS]), end, memory, a.out)
+
+
+def centre_ends(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[float, float]:
+    """Velocities of the end nodes half a kick on; boundary work and impulse up to then."""
+    work, impulse = a.ledger[WORK], a.ledger[IMPULSE]
+    for side in range(2):
+        node, sign = (0, 1.0) if side == 0 else (a.zones, -1.0)
+        scratch = offset(a.out, SCRATCH)
+        for k in range(MEMORY):
+            scratch[k] = a.memory[side * MEMORY + k]
+        push_end(a, side, velocity, scratch, 0.0)
+        pushed = a.out[FORCE]
+        centred[node + 1] = sign * a.out[VELOCITY]
+        work += pushed * 0.5 * sign * (velocity[node + 1] + centred[node + 1]) * half
+        impulse += sign * pushed * half
+    return work, impulse
+
+
+def centre_nodes(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[float, float, float]:
+    """Velocities of the other nodes half a kick on; kinetic energy, momentum, and exchange between nodes and zones.
+
+    The exchange, Σ v (f_left − f_right) with twice the mean velocity of the half kick, is minus what the forces give to the
+    zones: Σ f Δv, summed by parts.
+    """
+    zones, force = a.zones, a.force
+    kinetic, momentum, exchange = 0.0, 0.0, 0.0
+    for i in range(1, zones):
+        pull = force[i - 1] - force[i]
+        speed = velocity[i + 1] + half * pull * a.inverse_mass[i]
+        centred[i + 1] = speed
+        carried = a.mass[i] * speed
+        momentum = accumulate(momentum, carried)
+        kinetic = accumulate(kinetic, carried * speed)
+        exchange = accumulate(exchange, (velocity[i + 1] + speed) * pull)
+    for node in range(0, zones + 1, zones):
+        pull = -force[0] if node == 0 else force[zones - 1]
+        speed = centred[node + 1]
+        momentum += a.mass[node] * speed
+        kinetic += a.mass[node] * speed * speed
+        exchange += (velocity[node + 1] + speed) * pull
+    return 0.5 * kinetic, momentum, exchange
+
+
+def sum_zones(a: Arrays) -> tuple[float, float]:
+    """Internal energy as stored, half a kick behind; share of the crushable length that is not crushed (NaN: none is)."""
+    stored, length, crushable = 0.0, 0.0, 0.0
+    for layer in range(a.layer_count):
+        numbers = offset(a.numbers, layer * NUMBERS)
+        first = a.layers[layer * LAYER + FIRST_ZONE]
+        zones = a.layers[layer * LAYER + ZONES]
+        crushed = crushed_strain(numbers)
+        energy, count = 0.0, 0.0
+        for i in range(first, first + zones):
+            energy = accumulate(energy, a.energy[i])
+            count = accumulate(count, 0.0 if a.state[i] > crushed else 1.0)
+        stored += energy * numbers[ZONE_MASS]
+        if crushed < math.inf:
+            length += count * numbers[SIZE]
+            crushable += zones * numbers[SIZE]
+    return stored, length / crushable if crushable > 0.0 else math.nan
+
+
+def look(a: Arrays, probe: int, velocity: Any, centred: Any, half: float, seen: Any) -> None:
+    """Position, velocity, strain and stress at a probe."""
+    zone, layer, share = a.probes[1 + 2 * probe], a.probes[2 + 2 * probe], a.probe_weights[probe]
+    numbers = offset(a.numbers, layer * NUMBERS)
+    stress, energy = offset(a.out, SCRATCH), offset(a.out, SCRATCH + 1)
+    jump = velocity[zone + 1] - velocity[zone + 2] + centred[zone + 1] - centred[zone + 2]
+    energy[0] = a.energy[zone] + 0.5 * half * a.force[zone] * jump / numbers[ZONE_MASS]
+    call(
+        a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(velocity, zone),
+        offset(velocity, zone), offset(a.displacement, zone), energy, stress, offset(a.state, zone), a.out, a.out,
+        a.out, a.out, -1, a.zones, a.out,
+    )  # fmt: skip
+    moved = (1.0 - share) * a.displacement[zone] + share * a.displacement[zone + 1]
+    seen[0] = (1.0 - share) * a.coordinate[zone] + share * a.coordinate[zone + 1] + moved
+    seen[1] = (1.0 - share) * centred[zone + 1] + share * centred[zone + 2]
+    seen[2] = (a.displacement[zone] - a.displacement[zone + 1]) * numbers[INVERSE_SIZE]
+    seen[3] = stress[0]
+
+
+def crushed_strain(numbers: Any) -> float:
+    """The layer's densification strain, or half of its largest strain so far."""
+    given = numbers[CRUSHED_STRAIN]
+    return given if given == given else 0.5 * numbers[TOP_STRAIN]
+
+
+def fronts(a: Arrays) -> tuple[float, float]:
+    """Lagrangian positions of the compaction fronts that run from the left and from the right end; NaN where none runs.
+
+    A layer that cannot be crushed (a plate before the foam) is passed over.
+    """
+    zones = a.zones
+    left, right = int(a.ledger[LEFT_FRONT]), int(a.ledger[RIGHT_FRONT])
+    while left > 0 and not is_passed(a, left - 1):
+        left -= 1
+    while left < zones and is_passed(a, left):
+        left += 1
+    while right < zones and not is_passed(a, right):
+        right += 1
+    while right > 0 and is_passed(a, right - 1):
+        right -= 1
+    a.ledger[LEFT_FRONT], a.ledger[RIGHT_FRONT] = left, right
+    proximal, distal = math.nan, math.nan
+    if left < right:
+        if left > 0 and can_crush(a, left - 1):
+            start, end = max(left - WINDOW, 0), min(left + WINDOW, right)
+            proximal = a.coordinate[start] + crushed_length(a, start, end, start, end - 1)
+        if right < zones and can_crush(a, right):
+            start, end = max(right - WINDOW, left), min(right + WINDOW, zones)
+            distal = a.coordinate[end] - crushed_length(a, start, end, end - 1, start)
+    return proximal, distal
+
+
+def is_passed(a: Arrays, zone: int) -> bool:
+    """Whether a front has no more to do in a zone: it is crushed, or never can be."""
+    return a.state[zone] > crushed_strain_of(a, zone) or not can_crush(a, zone)
+
+
+def can_crush(a: Arrays, zone: int) -> bool:
+    """Whether the zone's layer has a strain at which it counts as crushed."""
+    return crushed_strain_of(a, zone) < math.inf
+
+
+def crushed_strain_of(a: Arrays, zone: int) -> float:
+    """`crushed_strain` of the layer that a zone belongs to."""
+    layer = a.layer_count - 1
+    while a.layers[layer * LAYER + FIRST_ZONE] > zone:
+        layer -= 1
+    return crushed_strain(offset(a.numbers, layer * NUMBERS))
+
+
+def crushed_length(a: Arrays, start: int, end: int, behind: int, ahead: int) -> float:
+    """Σ (ε − ε_A)/(ε_B − ε_A) ΔX over zones: unlike a half level, it does not see how far the front is smeared.
+
+    ε is the largest strain so far, so that what happens to a zone behind the front does not move the front.
+    """
+    length = 0.0
+    for i in range(start, end):
+        above = a.state[i] - a.state[ahead]
+        share = above / (a.state[behind] - a.state[ahead]) if a.state[behind] > a.state[ahead] else 0.0
+        length += min(max(share, 0.0), 1.0) * (a.coordinate[i + 1] - a.coordinate[i])
+    return length
