@@ -7,12 +7,13 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+TYPE_CHECKING = False  # as typing has it, whose import would be a third of the time of `hydro1d --help`
 
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:  # for type checkers and editors; at run time __getattr__ does it
+    from typing import Any
+
     from hydro1d.api import run  # noqa: F401
     from hydro1d.boundaries.base import Boundary, End  # noqa: F401
     from hydro1d.boundaries.pulses.base import Pulse  # noqa: F401
@@ -57,4 +58,6 @@ __all__ = [*_HOME, "__version__"]
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import importlib
+
     return getattr(importlib.import_module(f"hydro1d.{_HOME[name]}"), name)

@@ -121,7 +121,8 @@ class Command(MarkdownDirective):
         words = self.arguments
         name = f"_{words[0]}_{words[1]}" if len(words) > 1 else words[0]
         module = cli._module(name)
-        parser = argparse.ArgumentParser(f"hydro1d {' '.join(words)}", description=module.HELP)
+        about = cli.COMMANDS.get(name) or module.HELP
+        parser = argparse.ArgumentParser(f"hydro1d {' '.join(words)}", description=about)
         module.add_arguments(parser)
         return ["```text", parser.format_help().rstrip(), "```", ""]
 
@@ -133,7 +134,9 @@ class Commands(MarkdownDirective):
         """A table of names and what they do."""
         from hydro1d import cli
 
-        return table(("command", "does"), [(f"[`{n}`](#hydro1d-{n})", cli._help_of(n)) for n in cli.commands()])
+        return table(
+            ("command", "does"), [(f"[`{name}`](#hydro1d-{name})", text) for name, text in cli.COMMANDS.items()]
+        )
 
 
 class QuantitiesOf(MarkdownDirective):

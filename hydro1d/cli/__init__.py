@@ -1,23 +1,34 @@
-"""The command line. Each subcommand is a module of this package: HELP, add_arguments(parser), run(args) -> int | None.
+"""The command line. Each subcommand is a module of this package: add_arguments(parser), run(args) -> int | None.
 
-A new subcommand is a new file. Nothing heavy may be imported at the top of such a module: `hydro1d --help` reads HELP
-of all of them.
+A new subcommand is a new file and its line in `COMMANDS`. Python itself starts in a hundredth of a second and most of the
+standard library costs as much, so everything here is imported where it is used: `hydro1d --help` needs none of it.
 """
 
 from __future__ import annotations
 
-import argparse
-import contextlib
-import importlib
 import os
-import signal
 import sys
-import threading
-import warnings
-from collections.abc import Sequence
-from types import ModuleType
-from typing import Any
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any
+
+COMMANDS = {
+    "bench": "measure the speed beside a C reference, plain numpy and the memory's bound",
+    "check": "check a deck and say what it asks for, without running it",
+    "completion": "print a completion script for bash, zsh or fish",
+    "critical": "find the value of a deck's key at which an outcome flips, or trace that boundary",
+    "laws": "list the laws, boundaries and pulses, show the keys of one, plot a law, fit a law",
+    "new": "write a commented deck to start from",
+    "plot": "draw figures of a run: x-t diagram, profiles, histories, Hugoniot plane",
+    "report": "write one self-contained HTML page about a run",
+    "reproduce": "regenerate every figure and number of Harrigan, Reid & Seyed Yaghoubi 2010",
+    "run": "run a deck and write its result as HDF5",
+    "schema": "print the JSON schema of a deck, for editors",
+    "sweep": "run a deck over lists, ranges, grids or samples of its keys: one table",
+    "verify": "measure the solver against exact solutions",
+}
 PROGRAM = "hydro1d"
 DONE, FAILED, USAGE, BROKEN_DOWN, FILE_PROBLEM, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
@@ -28,19 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")  # whatever the terminal's encoding, σ is no error
-    previous = _interrupt_on_sigterm()
-    try:
-        code = _guarded(arguments)
-        return _flushed(code)
-    finally:
-        if previous is not None:
-            signal.signal(signal.SIGTERM, previous)
-
-
-def commands() -> list[str]:
-    """Names of the subcommands: the modules of this package."""
-    files = (name for folder in __path__ for name in os.listdir(folder))
-    return sorted({name[:-3] for name in files if name.endswith(".py") and not name.startswith(("_", "."))})
+    return _flushed(_guarded(arguments))
 
 
 def _guarded(arguments: list[str]) -> int:
@@ -79,18 +78,10 @@ def _explained(error: Exception) -> int:
 
 
 def _dispatch(arguments: list[str]) -> int:
-    names = commands()
-    if arguments and arguments[0] in names:
-        module = _module(arguments[0])
-        parser = argparse.ArgumentParser(f"{PROGRAM} {arguments[0]}", description=module.HELP, allow_abbrev=False)
-        module.add_arguments(parser)
-        options = parser.parse_args(arguments[1:])
-        with warnings.catch_warnings():
-            if not sys.warnoptions:
-                warnings.simplefilter("ignore")  # a library's remarks to programmers are not for standard error
-            return int(module.run(options) or DONE)
+    if arguments and arguments[0] in COMMANDS:
+        return _execute(arguments[0], arguments[1:])
     if arguments and arguments[0] in ("-h", "--help", "help"):
-        print(_overview(names))
+        print(_overview())
         return DONE
     if arguments and arguments[0] in ("-V", "--version"):
         from hydro1d import __version__
@@ -98,26 +89,48 @@ def _dispatch(arguments: list[str]) -> int:
         print(f"{PROGRAM} {__version__}")
         return DONE
     if not arguments:
-        print(_overview(names), file=sys.stderr)
+        print(_overview(), file=sys.stderr)
         return USAGE
-    return _unknown(arguments[0], names)
+    return _unknown(arguments[0])
 
 
-def _unknown(name: str, names: list[str]) -> int:
+def _execute(name: str, arguments: list[str]) -> int:
+    import argparse
+    import signal
+    import warnings
+
+    previous = _interrupt_on_sigterm()
+    try:
+        module = _module(name)
+        parser = argparse.ArgumentParser(f"{PROGRAM} {name}", description=COMMANDS[name], allow_abbrev=False)
+        module.add_arguments(parser)
+        options = parser.parse_args(arguments)
+        with warnings.catch_warnings():
+            if not sys.warnoptions:
+                warnings.simplefilter("ignore")  # a library's remarks to programmers are not for standard error
+            return int(module.run(options) or DONE)
+    finally:
+        if previous is not None:
+            signal.signal(signal.SIGTERM, previous)
+
+
+def _unknown(name: str) -> int:
     from difflib import get_close_matches
 
-    near = get_close_matches(name, names, 1)
+    near = get_close_matches(name, COMMANDS, 1)
     hint = f" (did you mean {near[0]}?)" if near else ""
-    return _complain(f"there is no command {name[:100]!r}{hint}; there are {', '.join(names)}", USAGE)
+    return _complain(f"there is no command {name[:100]!r}{hint}; there are {', '.join(COMMANDS)}", USAGE)
 
 
 def _module(name: str) -> Any:
-    module: ModuleType = importlib.import_module(f"{__name__}.{name}")
-    return module
+    import importlib
+
+    return importlib.import_module(f"{__name__}.{name}")
 
 
-def _overview(names: list[str]) -> str:
-    rows = [f"  {name:<{max(map(len, names)) + 2}}{_help_of(name)}" for name in names]
+def _overview() -> str:
+    width = max(map(len, COMMANDS)) + 2
+    rows = [f"  {name:<{width}}{text}" for name, text in COMMANDS.items()]
     return "\n".join(
         [
             f"usage: {PROGRAM} COMMAND … ({PROGRAM} COMMAND --help says more)",
@@ -133,14 +146,9 @@ def _overview(names: list[str]) -> str:
     )
 
 
-def _help_of(name: str) -> str:
-    try:
-        return str(_module(name).HELP)
-    except Exception as error:  # one command that cannot be imported must not hide the others
-        return f"(not available: {error})"
-
-
 def _complain(text: str, code: int) -> int:
+    import contextlib
+
     with contextlib.suppress(OSError):  # nobody may be listening
         print(f"{PROGRAM}: {_showable(text)}", file=sys.stderr)
     return code
@@ -148,7 +156,7 @@ def _complain(text: str, code: int) -> int:
 
 def _showable(text: str) -> str:
     """The text without characters that a terminal would act upon."""
-    return "".join(part if part.isprintable() or part == "\n" else "\N{REPLACEMENT CHARACTER}" for part in text)
+    return "".join(part if part.isprintable() or part == "\n" else "\ufffd" for part in text)
 
 
 def _flushed(code: int) -> int:
@@ -167,6 +175,8 @@ def _flushed(code: int) -> int:
 
 def _silenced(code: int = DONE) -> int:
     """The reader of standard output has had enough (``hydro1d laws | head``): stop without a word."""
+    import contextlib
+
     with contextlib.suppress(OSError, ValueError, AttributeError):  # a captured stream has no file
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return code
@@ -174,6 +184,9 @@ def _silenced(code: int = DONE) -> int:
 
 def _interrupt_on_sigterm() -> Any:
     """Let SIGTERM do what Ctrl-C does. Returns the handler to restore, or None outside the main thread."""
+    import signal
+    import threading
+
     if threading.current_thread() is not threading.main_thread():
         return None
 

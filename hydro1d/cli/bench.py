@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-HELP = "measure the speed beside a C reference, plain numpy and the memory's bound"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d bench``."""

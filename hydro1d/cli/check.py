@@ -10,8 +10,6 @@ from hydro1d.cli import _common
 if TYPE_CHECKING:
     from hydro1d.deck import Deck
 
-HELP = "check a deck and say what it asks for, without running it"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d check``."""

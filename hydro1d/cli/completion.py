@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from typing import NamedTuple
 
-HELP = "print a completion script for bash, zsh or fish"
 SHELLS = ("bash", "zsh", "fish")
 
 
@@ -38,14 +37,14 @@ def grammar() -> dict[str, tuple[str, list[Option]]]:
     from hydro1d import cli
 
     found = {}
-    for name in cli.commands():
+    for name, text in cli.COMMANDS.items():
         try:
             module = cli._module(name)
             parser = argparse.ArgumentParser(add_help=True)
             module.add_arguments(parser)
         except Exception:  # a command whose extra is not installed is left out
             continue
-        found[name] = (str(module.HELP), [_option(action) for action in parser._actions])
+        found[name] = (text, [_option(action) for action in parser._actions])
     found.get("new", ("", []))[1].append(Option((), "", _cases()))
     found.get("plot", ("", []))[1].append(Option((), "", _kinds()))
     found.get("laws", ("", []))[1].append(Option((), "", ("plot", "fit")))

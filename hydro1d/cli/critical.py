@@ -11,8 +11,6 @@ from hydro1d.cli import _common
 if TYPE_CHECKING:
     from hydro1d.sweep import Critical
 
-HELP = "find the value of a deck's key at which an outcome flips, or trace that boundary"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d critical``."""

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from hydro1d.parameters import Component
 
-HELP = "list the laws, boundaries and pulses, show the keys of one, plot a law, fit a law"
 ACTIONS = {"plot": "_laws_plot", "fit": "_laws_fit"}
 KINDS = {"law": "law = ", "boundary": "type = ", "pulse": "pulse = "}
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-HELP = "write a commented deck to start from"
 CASES = {
     "pulse": "a pressure pulse on a foam layer against a wall",
     "blast": "a blast on a steel plate over two foams",

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from hydro1d.store import Run
 
-HELP = "draw figures of a run: x-t diagram, profiles, histories, Hugoniot plane"
 KINDS = {
     "overview": "one page: x-t diagram, stress on the ends, profiles, Hugoniot plane",
     "profiles": "quantities along the column at chosen times",

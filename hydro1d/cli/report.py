@@ -5,8 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-HELP = "write one self-contained HTML page about a run"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d report``."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-HELP = "regenerate every figure and number of Harrigan, Reid & Seyed Yaghoubi 2010"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d reproduce``."""

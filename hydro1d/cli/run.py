@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from hydro1d.deck import Deck
     from hydro1d.store import Run
 
-HELP = "run a deck and write its result as HDF5"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d run``."""

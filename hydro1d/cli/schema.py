@@ -6,8 +6,6 @@ import argparse
 
 from hydro1d.cli import _common
 
-HELP = "print the JSON schema of a deck, for editors"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d schema``."""

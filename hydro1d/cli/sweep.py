@@ -13,8 +13,6 @@ from hydro1d.cli import _common
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-HELP = "run a deck over lists, ranges, grids or samples of its keys: one table"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d sweep``."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from hydro1d.cli import commands
+from hydro1d.cli import COMMANDS
 from hydro1d.plugins import builtin_names
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -40,7 +40,7 @@ def test_every_component_has_its_section(kind: str, page: str) -> None:
 
 def test_every_command_has_its_section() -> None:
     text = (DOCS / "cli.md").read_text(encoding="utf-8")
-    assert [name for name in commands() if f"{{command}} {name}\n" not in text] == []
+    assert [name for name in COMMANDS if f"{{command}} {name}\n" not in text] == []
 
 
 def test_links_between_pages_lead_somewhere() -> None:
