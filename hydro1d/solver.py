@@ -20,7 +20,10 @@ from hydro1d.kernels.program import Program
 from hydro1d.state import State
 
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
-FEWEST_STEPS = 20  # a stretch keeps a copy of its start: not for every step of a huge column
+BLOCK = (
+    32  # cycles; stretches begin and end at multiples of it: a block that breaks down is tried again from its start,
+)
+# wherever history and checkpoints have cut the run, and a copy of the start is not made for every step
 RETRIES = 3
 EASE = 1.0 / 16.0  # of the stable step, the first one under a load that jumps: what it will move is not moving yet
 SLOWEST_PACE = (
@@ -154,7 +157,7 @@ def solve(
 ) -> Outcome:
     """Run a column from its state (t = 0 unless given) to its end time, handing everything over to ``sink``.
 
-    A stretch that breaks down is tried again from its start, up to three times, each with half the step of the one before.
+    Where the run breaks down, the last block of cycles is tried again, up to three times, with half the step each time.
     Raises DeckError for a load that makes no sense on its end of the column.
     """
     program = program or Program(column)
@@ -188,6 +191,7 @@ class _Run:
         self.events = sorted(event for event in events if state.time < event <= column.end_time)
         self.profile_times = set(column.profile_times.tolist())
         self.jumps = {0.0, *column.corners}
+        self.looked = state.cycle, state.time
 
     def open(self) -> None:
         """Hand over the state at t = 0."""
@@ -232,42 +236,57 @@ class _Run:
         return status
 
     def stretch(self, event: float) -> int:
-        """One call of the time loop, tried again with shorter steps if it breaks down."""
+        """One call of the time loop. Where it breaks down, the blocks before that stand; the block itself is tried again."""
         start = self.state.copy()
-        for attempt in range(RETRIES + 1):
+        status = self.advance(event, self.steps_per_call())
+        if status > layout.PAUSED:
+            sound = (self.state.cycle - 1) // BLOCK * BLOCK - start.cycle  # the last cycle is the one that broke down
+            self.state.assign(start)
+            status = self.advance(event, sound) if sound > 0 else self.retry(event, start)
+        return layout.COLLAPSED if status == layout.PAUSED and self.is_stuck() else status
+
+    def retry(self, event: float, start: State) -> int:
+        """A block that broke down, with half the step, a quarter, an eighth."""
+        for attempt in range(1, RETRIES + 1):
+            self.state.assign(start)
             self.state.ledger[layout.CFL] = self.column.cfl * 0.5**attempt
             self.state.ledger[layout.NEXT_STEP] *= 0.5**attempt
-            begun = time.perf_counter()
-            status = self.program.advance(
-                self.state, stop=event, steps=self.steps_per_call(), row_at_stop=event == self.column.end_time
-            )
-            self.loop_seconds += time.perf_counter() - begun
-            if status <= layout.PAUSED or attempt == RETRIES:
+            status = self.advance(event, BLOCK - start.cycle % BLOCK)
+            if status <= layout.PAUSED:
                 break
-            self.state.assign(start)
         self.state.ledger[layout.CFL] = self.column.cfl
-        return layout.COLLAPSED if status == layout.PAUSED and self.is_stuck(start) else status
+        return status
 
-    def is_stuck(self, start: State) -> bool:
-        """Whether the steps of a stretch were so short, on the mean, that the end is out of reach."""
-        taken = self.state.cycle - start.cycle
-        pace = (self.state.time - start.time) / max(taken, 1)
-        return taken >= 1000 and pace < SLOWEST_PACE * self.state.ledger[layout.FIRST_STEP]
+    def advance(self, event: float, steps: int) -> int:
+        """Call the time loop, on the clock."""
+        begun = time.perf_counter()
+        status = self.program.advance(self.state, stop=event, steps=steps, row_at_stop=event == self.column.end_time)
+        self.loop_seconds += time.perf_counter() - begun
+        return status
+
+    def is_stuck(self) -> bool:
+        """Whether the last thousand steps or more were so short, on the mean, that the end is out of reach."""
+        cycle, moment = self.looked
+        taken = self.state.cycle - cycle
+        if taken < 1000:
+            return False
+        self.looked = self.state.cycle, self.state.time
+        return (self.state.time - moment) / taken < SLOWEST_PACE * self.state.ledger[layout.FIRST_STEP]
 
     def steps_per_call(self) -> int:
-        """So many that the user does not wait and the rows fit; stretches end at fixed cycles, so a restart meets them."""
-        length = max(ZONE_STEPS_PER_CALL // self.column.zones, FEWEST_STEPS)
+        """So many that the user does not wait and the rows fit, up to a multiple of `BLOCK`."""
+        length = max(ZONE_STEPS_PER_CALL // self.column.zones // BLOCK, 1) * BLOCK
         length = min(length, self.program.row_capacity * self.column.history_every or length)
-        steps = length - self.state.cycle % length
+        end = self.state.cycle + length
         if self.plan.cycles is not None:
-            steps = min(steps, self.plan.cycles - self.state.cycle % self.plan.cycles)
-        return steps
+            end = min(end, (self.state.cycle // self.plan.cycles + 1) * self.plan.cycles + BLOCK - 1)
+        return end // BLOCK * BLOCK - self.state.cycle
 
     def save_if_due(self) -> None:
         """Hand over a checkpoint when the plan asks for one."""
         plan, state, now = self.plan, self.state, time.monotonic()
         due = (
-            (plan.cycles is not None and state.cycle % plan.cycles == 0 and state.cycle > self.saved_cycle)
+            (plan.cycles is not None and state.cycle // plan.cycles > self.saved_cycle // plan.cycles)
             or (plan.time is not None and state.time - self.saved_time >= plan.time)
             or (plan.wall is not None and now - self.saved_wall >= plan.wall)
         )

@@ -86,7 +86,9 @@ class Output(Component):
 class Checkpoint(Component):
     """How often the state is saved: by cycles, by simulated time or by wall time; exactly one of them."""
 
-    cycles: int | None = Field(None, ge=1, le=10**12, description="cycles between checkpoints")
+    cycles: int | None = Field(
+        None, ge=1, le=10**12, description="cycles between checkpoints, each taken at the next multiple of 32"
+    )
     time: float | None = positive("s", "simulated time between checkpoints", default=None)
     wall: float | None = positive("s", "wall time between checkpoints", default=None)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 from columns import FOAM, layer, run, step
@@ -10,6 +12,7 @@ import hydro1d
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.wall import Wall
 from hydro1d.laws.base import Law
+from hydro1d.solver import CheckpointPlan
 
 
 def test_the_curve_that_ends_at_full_strain_ends_the_run():
@@ -50,3 +53,30 @@ def test_the_public_api_raises_and_leaves_a_diagnostic_file(tmp_path):
     assert not (tmp_path / "run.h5").exists()
     diagnosis = hydro1d.open_run(tmp_path / "run.failed.h5")
     assert diagnosis.status == "failed" and diagnosis["strain"].shape[1] == 50
+
+
+class Hasty(Law):
+    """A law that cannot follow a strain that grows by more than 1 % in a step."""
+
+    history: ClassVar[dict[str, float]] = {"last": 0.0}
+
+    def point(self, strain, largest, rate, energy, history):
+        (last,) = history
+        stress = 1e6 * strain if strain - last < 0.01 else float("nan")
+        return stress, 1e6, 1e6, True, (strain,)
+
+
+def test_a_block_that_breaks_down_is_tried_again_wherever_the_run_is_cut():
+    # at 10 m/s every block of the run breaks down at full steps and passes at half of them
+    def fields(**options):
+        outcome, kept = run([layer(Hasty(density=100.0), zones=50)], Piston(velocity=10.0), Wall(), end=6e-3, **options)
+        assert outcome.status == "complete", outcome.message
+        assert outcome.cycles > 100  # 84 were it never tried again
+        return kept.frames[-1].fields | {"cycles": outcome.cycles}
+
+    whole = fields(history=100, profile_times=[6e-3])
+    steps = [fields(history=history, profile_times=[6e-3], checkpoints=plan) for history, plan in
+             ((1, None), (7, CheckpointPlan(cycles=3)), (0, CheckpointPlan(cycles=50)))]  # fmt: skip
+    for other in steps:
+        for name, values in whole.items():
+            assert np.array_equal(values, other[name]), name
