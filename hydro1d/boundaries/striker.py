@@ -22,12 +22,13 @@ class Striker(Boundary):
     memory: ClassVar[dict[str, str]] = {"striker_position": "m", "striker_velocity": "m s-1"}
 
     def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
-        """Joint motion where they touch and the contact pushes, else free flight of both."""
+        """Joint motion where they would overlap after this kick if both flew free, else that free flight."""
         position, speed = memory
         step = 0.5 * (end.step_before + end.step_after)
         joint = (end.mass * end.velocity + self.mass * speed - end.stress * step) / (end.mass + self.mass)
         free = free_velocity(end, 0.0)
-        touches = position >= end.displacement and joint > free
+        # In contact the positions are equal but for rounding, and this asks whether the contact pushes: joint > free.
+        touches = position + speed * step > end.displacement + free * step
         velocity = joint if touches else free
         force = end.stress + end.mass * (velocity - end.velocity) / step if touches and step > 0.0 else 0.0
         speed = joint if touches else speed

@@ -7,7 +7,7 @@ import math
 from hydro1d.errors import DeckError
 from hydro1d.laws.base import Law
 
-_STRAINS = (0.0, 1e-6, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9)
+_STRAINS = (0.0, 1e-6, 1e-4, 1e-3, *(0.005 * k for k in range(1, 181)))
 
 
 def check_law(law: Law) -> None:
