@@ -13,8 +13,7 @@ class Viscosity(Component):
     c = √(loading tangent/ρ0); room is the strain that is left to the zone, 1 − ε for a material that does not lock (then
     ρ0/room is the current density), see `Foam.room`. Foam unloads on a steep line and so keeps every overshoot: each zone is a
     mass on the spring of its locked state, and c₁ = 2 damps it critically. In material that has never yielded, and in gas, the
-    jump is slope-limited and c₁ is `smooth_linear`: there is nothing to lock, and a limited jump with a large c₁ makes noise
-    grow. ``kind = "none"`` gives the mass–spring chain.
+    jump is slope-limited and c₁ is `smooth_linear`: there is nothing to lock. ``kind = "none"`` gives the mass–spring chain.
     """
 
     kind: Literal["standard", "none"] = "standard"
