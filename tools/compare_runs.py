@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
 """Compare two hydro1d results of the same zoning: the largest difference of each quantity, over its largest value.
 
-Exit code 0 if all lie within the tolerance, 1 if not.
+Exit code 0 if all lie within the tolerance, 1 if not, 4 if a file cannot be read.
 """
 
 import argparse
-import sys
 
 import h5py
 import numpy as np
+from contents import open_result, run_script
 
 
 def differences(first, second):
     """Rows (name, largest difference, largest value) for all arrays of numbers that both files have."""
     rows = []
-    with h5py.File(first, "r") as a, h5py.File(second, "r") as b:
+    with open_result(first) as a, open_result(second) as b:
         names = []
         a.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
         for name in names:
@@ -39,9 +39,10 @@ def main(argv=None):
     parser.add_argument("second", help="another")
     parser.add_argument("--tolerance", type=float, default=1e-9, help="relative, default 1e-9")
     args = parser.parse_args(argv)
+    rows = differences(args.first, args.second)
     worst = 0.0
     print(f"{'quantity':<34}{'largest difference':>20}{'relative':>12}")
-    for name, gap, size in differences(args.first, args.second):
+    for name, gap, size in rows:
         relative = 0.0 if gap == 0.0 else gap / size if 0.0 < size < np.inf else np.inf
         worst = max(worst, relative)
         print(f"{name:<34}{gap:>20.6g}{relative:>12.3g}" + ("   other shape" if gap == size == np.inf else ""))
@@ -50,9 +51,4 @@ def main(argv=None):
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except BrokenPipeError:  # the reader has had enough
-        sys.stderr.close()
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"compare_runs: {error}")
+    run_script(main)

@@ -9,11 +9,10 @@ A front that is still forming, decaying or meeting another one does not satisfy 
 """
 
 import argparse
-import sys
 
-import h5py
 import numpy as np
-from _fronts import front_coordinate, strongest_front
+from contents import BadFile, open_result, run_script
+from track_front import front_coordinate, strongest_front
 
 NAMES = ("mass", "momentum", "Rayleigh", "energy")
 
@@ -21,7 +20,7 @@ NAMES = ("mass", "momentum", "Rayleigh", "energy")
 def residuals(path):
     """Rows (time s, speed m/s, mass, momentum, Rayleigh, energy)."""
     found = []
-    with h5py.File(path, "r") as file:
+    with open_result(path) as file:
         nodes, time, layer = file["node_coordinate"][:], file["time"][:], file["zone_layer"][:]
         density = file["zone_mass"][:] / np.diff(nodes)
         for index in range(len(time)):
@@ -35,7 +34,7 @@ def residuals(path):
             behind, ahead = (np.array([field[zone] for field in fields]) for zone in (front.behind, front.ahead))
             found.append((time[index], front_coordinate(front, nodes, strain), density[front.ahead], behind, ahead))
     if len(found) < 2:
-        raise ValueError(f"{path}: fewer than two profiles show a compaction front within one layer")
+        raise BadFile(f"{path}: fewer than two profiles show a compaction front within one layer")
     times, places = np.array([row[0] for row in found]), np.array([row[1] for row in found])
     speeds = np.gradient(places, times)
     return np.array([_row(*row, speed) for row, speed in zip(found, speeds, strict=True)])
@@ -72,9 +71,4 @@ def main(argv=None):
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except BrokenPipeError:  # the reader has had enough
-        sys.stderr.close()
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"jump_check: {error}")
+    run_script(main)

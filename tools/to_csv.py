@@ -7,13 +7,14 @@ import sys
 
 import h5py
 import numpy as np
+from contents import BadFile, open_result, run_script
 
 
 def columns_of(file, what, time=None):
     """Names with units and the arrays of one table: "history", "probes", "zones" or "nodes"."""
     if what in ("history", "probes"):
         if what not in file:
-            raise KeyError(f"no {what} in this file")
+            raise BadFile(f"no {what} in {file.filename}")
         return _group(file[what])
     stored = file["time"][:]
     row = len(stored) - 1 if time is None else int(np.argmin(np.abs(stored - time)))
@@ -56,7 +57,7 @@ def main(argv=None):
     )
     parser.add_argument("-o", "--output", help="default: standard output")
     args = parser.parse_args(argv)
-    with h5py.File(args.run, "r") as file:
+    with open_result(args.run) as file:
         columns, time = columns_of(file, args.what, args.time)
     with open(args.output, "w") if args.output else contextlib.nullcontext(sys.stdout) as stream:
         if time is not None:
@@ -65,9 +66,4 @@ def main(argv=None):
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except BrokenPipeError:  # the reader has had enough
-        sys.stderr.close()
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"to_csv: {error}")
+    run_script(main)

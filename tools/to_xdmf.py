@@ -6,15 +6,15 @@ The XDMF holds no data; it points into the HDF5 file, which must stay where it i
 
 import argparse
 import os
-import sys
 from xml.sax.saxutils import escape
 
 import h5py
+from contents import open_result, run_script
 
 
 def xdmf_text(path, reference):
     """The XDMF of the result `path`, which it calls `reference`."""
-    with h5py.File(path, "r") as file:
+    with open_result(path) as file:
         times = file["time"][:]
         zones = file["zone"].size
         shapes = {name: file[name].shape for name in file if isinstance(file[name], h5py.Dataset)}
@@ -75,7 +75,4 @@ def main(argv=None):
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"to_xdmf: {error}")
+    run_script(main)

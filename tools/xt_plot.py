@@ -2,25 +2,24 @@
 """Draw the x-t diagram of a hydro1d result with h5py, numpy and matplotlib alone: a start for figures of your own."""
 
 import argparse
-import sys
 
-import h5py
 import numpy as np
+from contents import BadFile, open_result, run_script
 from matplotlib.figure import Figure
 
 
 def xt_figure(path, quantity="stress", laboratory=False):
     """A matplotlib Figure: position to the right, time upwards, colour by a quantity over (time, zone)."""
-    with h5py.File(path, "r") as file:
+    with open_result(path) as file:
         if quantity not in file or file[quantity].ndim != 2:
-            raise KeyError(f"no profiles of {quantity!r} in {path}")
+            raise BadFile(f"no profiles of {quantity!r} in {path}")
         time, values = file["time"][:], file[quantity][:]
         units, text = file[quantity].attrs["units"], file[quantity].attrs["long_name"]
         nodes = (
             file["position"][:] if laboratory else np.broadcast_to(file["node_coordinate"][:], file["position"].shape)
         )
     if len(time) < 2:
-        raise ValueError(f"{path} holds fewer than two profiles")
+        raise BadFile(f"{path} holds fewer than two profiles")
     if values.shape[1] == nodes.shape[1]:  # over nodes: to the zones between
         values = 0.5 * (values[:, :-1] + values[:, 1:])
     centres = 0.5 * (nodes[:, :-1] + nodes[:, 1:])
@@ -41,12 +40,11 @@ def main(argv=None):
     parser.add_argument("--laboratory", action="store_true", help="positions in the laboratory, not in the material")
     parser.add_argument("-o", "--output", default="xt.png", help="PNG, SVG or PDF; default xt.png")
     args = parser.parse_args(argv)
+    if not args.output.endswith((".png", ".svg", ".pdf")):
+        parser.error(f"{args.output}: a figure's name ends in .png, .svg or .pdf")
     xt_figure(args.run, args.quantity, args.laboratory).savefig(args.output, dpi=150)
     print(args.output)
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"xt_plot: {error}")
+    run_script(main)

@@ -36,16 +36,34 @@ def explained(action: str, path: os.PathLike[str] | str) -> Iterator[None]:
     except FileProblem:
         raise
     except (OSError, RuntimeError, ValueError, KeyError, TypeError, MemoryError) as error:
-        raise FileProblem(f"cannot {action} {os.fspath(path)}: {_reason(error)}") from error
+        raise FileProblem(f"cannot {action} {os.fspath(path)}: {_reason(error, action, Path(path))}") from error
 
 
-def _reason(error: BaseException) -> str:
+def _reason(error: BaseException, action: str, path: Path) -> str:
     if isinstance(error, MemoryError):
         return "not enough memory"
+    text = str(error)
+    system = re.search(r"error message = '([^']+)'", text)  # what the HDF5 library quotes of the system
+    if system:
+        return system.group(1)
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
-    found = re.search(r"error message = '([^']+)'", str(error))
-    return found.group(1) if found else str(error).splitlines()[0] if str(error) else type(error).__name__
+    if action == "read" and path.is_file():
+        return not_hdf5(path, error)
+    return text.splitlines()[0] if text else type(error).__name__
+
+
+def not_hdf5(path: Path, error: BaseException) -> str:
+    """Why the HDF5 library could not read a file, in words that need no knowledge of the library."""
+    with open(path, "rb") as stream:
+        start = stream.read(len(_SIGNATURE))
+    if not start:
+        return "it is empty"
+    if start != _SIGNATURE:
+        return "it is not an HDF5 file"
+    if "truncated" in str(error):
+        return "it is truncated: its end is missing, or not all of it is written yet"
+    return "it is damaged, or lacks what hydro1d's files have"
 
 
 class Temporary:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hydro1d.errors import FileProblem
-from hydro1d.store.files import explained
+from hydro1d.store.files import explained, not_hdf5
 from hydro1d.store.layout import GROUPS, SCHEMA_VERSION, Field
 from hydro1d.store.seal import check_seal
 
@@ -42,6 +42,11 @@ class FileSource:
             self.attributes = _attributes(file)
             if "hydro1d_version" not in self.attributes or "schema_version" not in self.attributes:
                 raise FileProblem(f"{self.name} is an HDF5 file, but not one of hydro1d's")
+            if self.attributes.get("content") == "table":
+                raise FileProblem(
+                    f"{self.name} is a table of hydro1d sweep, not the result of a run; its CSV file or "
+                    "hydro1d.sweep.read_table read it"
+                )
             self.schema_version = int(self.attributes["schema_version"])
             if check_schema and self.schema_version > SCHEMA_VERSION:
                 raise FileProblem(
@@ -61,7 +66,7 @@ class FileSource:
             try:
                 file = h5py.File(self.path, "r", locking=False)
             except OSError as error:
-                raise FileProblem(f"cannot read {self.name}: {_not_hdf5(self.path, error)}") from error
+                raise FileProblem(f"cannot read {self.name}: {not_hdf5(self.path, error)}") from error
             with file:
                 if _identity(file.id.get_vfd_handle()) != self._identity:
                     raise FileProblem(f"{self.name} was replaced since it was opened; open it again")
@@ -145,18 +150,6 @@ class FileSource:
 def _identity(path: Path | int) -> tuple[int, int, int, int]:
     status = os.stat(path)
     return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
-
-
-def _not_hdf5(path: Path, error: OSError) -> str:
-    with open(path, "rb") as stream:
-        start = stream.read(8)
-    if not start:
-        return "it is empty"
-    if start != b"\x89HDF\r\n\x1a\n":
-        return "it is not an HDF5 file"
-    if "truncated" in str(error):
-        return "it is truncated"
-    return f"it is damaged ({str(error).splitlines()[0]})"
 
 
 def _attributes(file: h5py.File) -> dict[str, Any]:

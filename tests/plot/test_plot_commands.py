@@ -10,6 +10,7 @@ import pytest
 from hydro1d.cli import main
 from hydro1d.cli.new import CASES
 from hydro1d.deck import load_deck
+from hydro1d.sweep import Column, Table
 
 
 @pytest.fixture
@@ -84,18 +85,28 @@ def damage(kind, result, path):
         path.write_bytes(data)
         with h5py.File(path, "r+") as file:
             file.attrs["schema_version"] = 99
+    elif kind == "table":
+        Table([Column("peak", "Pa", "a column", [1.0, 2.0])]).write_hdf5(path)
     elif kind == "flipped":
         path.write_bytes(data[:-20_000] + bytes(byte ^ 255 for byte in data[-20_000:]))
 
 
-@pytest.mark.parametrize("kind", ["text", "empty", "truncated", "not ours", "newer", "flipped"])
+WORDS = {
+    "text": "it is not an HDF5 file", "empty": "it is empty", "truncated": "not all of it is written yet",
+    "not ours": "not one of hydro1d's", "newer": "schema version 99", "flipped": "damaged",
+    "table": "a table of hydro1d sweep, not the result of a run",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", WORDS)
 @pytest.mark.parametrize("command", ["plot", "report"])
-def test_bad_files_are_one_message(result, here, capsys, kind, command):
+def test_bad_files_are_one_message_in_our_words(result, here, capsys, kind, command):
     path = here / "bad.h5"
     damage(kind, result, path)
     assert main([command, str(path)]) == 4
     captured = capsys.readouterr()
     assert captured.err.startswith("hydro1d: ") and "bad.h5" in captured.err and "Traceback" not in captured.err
+    assert WORDS[kind] in captured.err and "synchronously" not in captured.err
     assert len(captured.err.splitlines()) <= 3
     assert not list(here.glob("*.png")) and not list(here.glob("*.html"))
 

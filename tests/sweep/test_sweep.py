@@ -79,6 +79,19 @@ def test_hdf5_and_csv_hold_the_same(folder):
     assert again.columns["peak_support_stress"].units == "Pa"
 
 
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [(None, "No such file"), (b"", "empty"), (b"run,x", "not an HDF5"), (b"\x89HDF\r\n\x1a\n", "damaged")],
+)
+def test_what_is_no_table_is_said_in_our_words(tmp_path, content, words):
+    path = tmp_path / "t.h5"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(FileProblem, match=words) as caught:
+        read_table(path)
+    assert "synchronously" not in str(caught.value)
+
+
 def test_threads_and_processes_do_not_change_a_bit(folder):
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context

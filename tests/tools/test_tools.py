@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 
 TOOLS = Path(__file__).parents[2] / "tools"
-SCRIPTS = ("xt_plot", "to_csv", "to_xdmf", "compare_runs", "track_front", "energy_table", "jump_check")
+SCRIPTS = ("contents", "xt_plot", "to_csv", "to_xdmf", "compare_runs", "track_front", "energy_table", "jump_check")
 
 
 def tool(name, *arguments, cwd=None):
@@ -20,24 +21,76 @@ def tool(name, *arguments, cwd=None):
     return subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=120)
 
 
+def test_every_script_beside_these_is_tested_here():
+    others = {"bench", "viscosity_study"}  # they calculate
+    assert {path.stem for path in TOOLS.glob("*.py")} == {*SCRIPTS, *others}
+
+
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_help_and_independence(name):
     done = tool(name, "--help")
     assert (done.returncode == 0 and "RUN.h5" in done.stdout) or name in ("compare_runs", "energy_table")
-    assert "hydro1d." not in (TOOLS / f"{name}.py").read_text()  # h5py and numpy are enough
+    text = (TOOLS / f"{name}.py").read_text()
+    assert "import hydro1d" not in text and "from hydro1d" not in text  # h5py and numpy are enough
+
+
+@pytest.fixture(scope="module")
+def bad_files(result, tmp_path_factory):
+    """One file of each kind, and the words in which a script must say what is wrong with it."""
+    folder = tmp_path_factory.mktemp("bad")
+    (folder / "folder.h5").mkdir()
+    (folder / "text.h5").write_text("no HDF5")
+    (folder / "empty.h5").write_text("")
+    (folder / "truncated.h5").write_bytes(result.read_bytes()[:100_000])
+    (folder / "newer.h5").write_bytes(result.read_bytes())
+    (folder / "lacking.h5").write_bytes(result.read_bytes())
+    with h5py.File(folder / "foreign.h5", "w") as file:
+        file["a"] = 1.0
+    with h5py.File(folder / "table.h5", "w") as file:
+        file.attrs.update({"hydro1d_version": "0", "schema_version": 1, "content": "table"})
+    with h5py.File(folder / "newer.h5", "r+") as file:
+        file.attrs["schema_version"] = 99
+    with h5py.File(folder / "lacking.h5", "r+") as file:
+        for name in ("time", "history", "stress", "node_coordinate"):
+            del file[name]
+    words = {
+        "missing": "No such file", "folder": "it is a folder", "text": "it is not an HDF5 file", "empty": "it is empty",
+        "truncated": "not all of it is written yet", "foreign": "not one of hydro1d's", "table": "a table of hydro1d sweep",
+        "newer": "schema version 99",
+    }  # fmt: skip
+    return folder, words
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
-def test_bad_files_are_one_line(name, tmp_path):
-    (tmp_path / "text.h5").write_text("no HDF5")
-    with h5py.File(tmp_path / "other.h5", "w") as file:
-        file["a"] = 1.0
-    for bad in ("text.h5", "other.h5", "missing.h5"):
-        done = tool(name, *[tmp_path / bad] * (2 if name == "compare_runs" else 1), cwd=tmp_path)
-        if name == "compare_runs" and bad == "other.h5":
-            continue  # nothing in common is nothing different
-        assert done.returncode != 0
-        assert done.stderr.startswith(f"{name}: ") and "Traceback" not in done.stderr
+def test_bad_files_are_one_sentence_of_ours_and_exit_code_4(name, bad_files, tmp_path):
+    folder, words = bad_files
+    for bad, text in words.items():
+        done = tool(name, *[folder / f"{bad}.h5"] * (2 if name == "compare_runs" else 1), cwd=tmp_path)
+        assert (done.returncode, done.stdout) == (4, ""), (bad, done)
+        assert done.stderr.startswith(f"{name}: ") and text in done.stderr and "Unable to" not in done.stderr
+        assert done.stderr.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", sorted({*SCRIPTS} - {"contents", "compare_runs"}))
+def test_what_a_file_lacks_is_named(name, bad_files, tmp_path):
+    done = tool(name, bad_files[0] / "lacking.h5", cwd=tmp_path)
+    assert done.returncode == 4
+    assert re.search(
+        "there is no (time|history|node_coordinate) in it|no (profiles of 'stress'|history) in", done.stderr
+    )
+    assert "Unable to" not in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_contents(result):
+    lines = tool("contents", result).stdout.splitlines()
+    assert any(line.split()[:5] == ["stress", "36", "x", "100", "Pa"] for line in lines)
+
+
+def test_a_reader_that_has_had_enough(result):
+    command = f"{sys.executable} {TOOLS / 'to_csv.py'} {result} | head -1"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=120)
+    assert done.stdout.startswith("history_time") and done.stderr == ""
 
 
 def test_xt_plot(result, tmp_path):
