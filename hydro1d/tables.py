@@ -18,6 +18,8 @@ LONGEST_TABLE = 1_000_000  # rows
 Table = tuple[tuple[float, float], ...]
 
 _BRACKETED = re.compile(r"^(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\))\s*$")
+_COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?|[+-]?\d+,")
+_COMMA_PAIR = re.compile(r"[^\s,]*,[^\s,]+\s+[^\s,]*,[^\s,]+")
 _NUMERIC = re.compile(r"[+-]?\.?\d|[+-]?(?:nan|inf)", re.IGNORECASE)
 
 
@@ -32,7 +34,7 @@ def read_table(value: Any, units: tuple[str, str], folder: Path) -> Table:
     Raises TableError, naming the row (for a file, its line), for anything that is not finite or not in order.
     """
     if isinstance(value, str):
-        return _in_order(_read_csv(value, units, folder))
+        return _in_order(read_rows(value, units, folder)[0])
     if hasattr(value, "tolist"):  # a numpy array
         value = value.tolist()
     if not isinstance(value, Sequence) or not value:
@@ -63,12 +65,19 @@ def _in_order(rows: list[tuple[str, tuple[float, float]]]) -> Table:
     return tuple(pair for _, pair in rows)
 
 
-def _read_csv(name: str, units: tuple[str, str], folder: Path) -> list[tuple[str, tuple[float, float]]]:
-    lines = _lines(name, folder)
-    table = [(number, _cells(line)) for number, line in enumerate(lines, 1) if line.split("#")[0].strip(" \t;,")]
+def read_rows(
+    name: str, units: tuple[str, str], folder: Path, stated: tuple[str, str] = ("", "")
+) -> tuple[list[tuple[str, tuple[float, float]]], list[str]]:
+    """Rows of a CSV file in the SI units ``units``, in whatever order, each with its place; the unit of each column.
+
+    ``stated`` are units that are known beforehand; for such a column the header is not asked. "" where no unit is given.
+    Columns are separated by semicolon, tab, comma or blanks; where it is not the comma, numbers may have a decimal comma.
+    """
+    lines = [(number, line.split("#")[0].strip()) for number, line in enumerate(_lines(name, folder), 1)]
+    table = _dialect([(number, text) for number, text in lines if text.strip(" \t;,")], name)
     head = [row for row in table[:3] if not any(_NUMERIC.match(cell) for cell in _beyond_unit_one(row[1]))]
     head = head[: next((k for k, row in enumerate(head) if row is not table[k]), len(head))]
-    given = _units(head, units, name)
+    given = _units(head, units, name, stated)
     rows = []
     for number, cells in table[len(head) :]:
         place = f"{name}, line {number}"
@@ -80,7 +89,28 @@ def _read_csv(name: str, units: tuple[str, str], folder: Path) -> list[tuple[str
             raise TableError(f"{name} has more than {LONGEST_TABLE} rows")
     if not rows:
         raise TableError(f"{name} has no row of numbers")
-    return rows
+    return rows, given
+
+
+def _dialect(lines: list[tuple[int, str]], name: str) -> list[tuple[int, list[str]]]:
+    """The cells of each line, decimal commas as points; what separates columns is read off the last line."""
+    last = lines[-1][1] if lines else ""
+    mark = next((mark for mark in (";", "\t", ",") if mark in last), " ")
+    if mark == "," and _COMMA_PAIR.fullmatch(last):
+        mark = " "
+    table = [(number, _cells(text, mark)) for number, text in lines]
+    commas = [
+        (number, cell) for number, cells in table for cell in cells if mark != "," and _COMMA_NUMBER.fullmatch(cell)
+    ]
+    if not commas:
+        return table
+    if any("." in cell and _NUMERIC.match(cell) for _, cells in table for cell in cells):
+        number, cell = commas[0]
+        raise TableError(f"{name}, line {number}: {cell} has a comma where other numbers have a decimal point")
+    return [
+        (number, [cell.replace(",", ".") if _COMMA_NUMBER.fullmatch(cell) else cell for cell in cells])
+        for number, cells in table
+    ]
 
 
 def _beyond_unit_one(cells: list[str]) -> list[str]:
@@ -95,10 +125,10 @@ def _number(cell: str) -> float | str:
         return cell
 
 
-def _cells(line: str) -> list[str]:
-    text = line.split("#")[0].strip()
-    separator = next((mark for mark in (";", ",", "\t") if mark in text), None)
-    return [cell.strip().strip('"').strip() for cell in text.split(separator)]
+def _cells(text: str, mark: str) -> list[str]:
+    """Cells of a line; a header may be separated by another mark than the numbers."""
+    found = mark if mark in text else next((other for other in (";", ",", "\t") if other in text), " ")
+    return [cell.strip().strip('"').strip() for cell in (text.split() if found == " " else text.split(found))]
 
 
 def _lines(name: str, folder: Path) -> list[str]:
@@ -109,9 +139,7 @@ def _lines(name: str, folder: Path) -> list[str]:
             raise TableError(f"{name} is not a file")
         if status.st_size > LARGEST_FILE:
             raise TableError(f"{name} is larger than {LARGEST_FILE // 1024**2} MB")
-        return path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise TableError(f"{name} is not text in UTF-8") from None
+        return _text(path.read_bytes(), name).splitlines()
     except OSError as error:
         raise TableError(f"the file {name[:200]} cannot be read: {error.strerror or error}") from None
     except ValueError as error:  # a NUL in the name
@@ -120,16 +148,28 @@ def _lines(name: str, folder: Path) -> list[str]:
         raise TableError(f"{name[:200]!r} is not the name of a file") from None
 
 
-def _units(head: list[tuple[int, list[str]]], units: tuple[str, str], name: str) -> list[str]:
-    """The unit of each column as the header says ("stress (MPa)", or a row of units); "" where it says nothing."""
+def _text(raw: bytes, name: str) -> str:
+    """Text in UTF-8 or, as older instruments write it, in the Western European encoding of Windows."""
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        if any(byte < 9 for byte in raw):
+            raise TableError(f"{name} is not text in UTF-8") from None
+        return raw.decode("cp1252", errors="replace")
+
+
+def _units(head: list[tuple[int, list[str]]], units: tuple[str, str], name: str, stated: tuple[str, str]) -> list[str]:
+    """The unit of each column as stated, or as the header says ("stress (MPa)", or a row of units); "" where none is."""
     if len(head) > 2:
         raise TableError(f"{name}, line {head[2][0]}: not numbers, after a header and a row of units")
-    given = ["", ""]
+    given = list(stated)
     for row, (number, cells) in enumerate(head):
         place = f"{name}, line {number}"
         if len(cells) != 2:
             raise TableError(f"{place}: {len(cells)} columns where there must be 2")
         for column, cell in enumerate(cells):
+            if stated[column]:
+                continue
             unit = _unit(cell, units[column], place, must_be_unit=row == 1)
             if unit and given[column] and unit != given[column]:
                 raise TableError(f"{place}: the unit {unit} contradicts {given[column]} in the row above")

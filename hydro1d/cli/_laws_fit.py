@@ -12,6 +12,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d laws fit``."""
     parser.add_argument("curve", metavar="CURVE.csv", type=Path, help="two columns, header and units optional")
     parser.add_argument("--law", default="epph-tangent", help="the law to fit, default epph-tangent")
+    parser.add_argument(
+        "--strain-unit", metavar="UNIT", default="", help='of the first column, "%%"; default: as in the header, else 1'
+    )
+    parser.add_argument(
+        "--stress-unit",
+        metavar="UNIT",
+        default="",
+        help="of the second column, MPa; default: as in the header, else Pa",
+    )
     parser.add_argument("--density", metavar="DENSITY", help='of the foam, "51.6 kg/m^3"; epph needs it')
     parser.add_argument("--max-strain", metavar="STRAIN", type=float, default=1.0, help="leave out what lies beyond")
     parser.add_argument("--material", metavar="NAME", default="foam", help="name in the deck fragment, default foam")
@@ -22,19 +31,34 @@ def run(args: argparse.Namespace) -> None:
     """Fit; print parameters, quality and a deck fragment; draw."""
     from hydro1d import fit, plot
 
-    found = fit.fit_curve(args.curve, args.law, _density(args.density), args.max_strain)
+    units = {"strain_unit": _unit(args, "strain", "1"), "stress_unit": _unit(args, "stress", "Pa")}
+    found = fit.fit_curve(args.curve, args.law, _density(args.density), args.max_strain, **units)
     efficiency = found.efficiency
-    lines = [found.table(), ""]
+    lines = [found.table(), "", *(f"note: {text}" for text in found.warnings())]
     lines.append(f"rms of the residuals: {found.rms / 1e6:.4g} MPa ({100 * found.relative_rms:.3g} % as weighted)")
     lines.append(
         f"by energy efficiency: plateau {efficiency.plateau_stress / 1e6:.4g} MPa, "
         f"densification strain {efficiency.densification_strain:.4g}"
     )
     if not efficiency.complete:
-        lines.append("  the efficiency still rises at the last point: the curve ends before the foam densifies")
+        lines.append("  the efficiency has not fallen at the last point: the curve ends before the foam densifies")
     figure, _ = fit.draw(found)
     target = plot.save(figure, args.output or Path(f"{args.curve.stem}-{args.law}.png"))
     print("\n".join([*lines, f"figure: {target}", "", found.deck_fragment(args.material)]))
+
+
+def _unit(args: argparse.Namespace, column: str, wanted: str) -> str:
+    """The unit given for a column, if it is one of the right kind."""
+    from hydro1d.errors import DeckError
+    from hydro1d.units import convert
+
+    text = str(getattr(args, f"{column}_unit"))
+    try:
+        if text:
+            convert(f"1 {text}", wanted)
+    except ValueError as error:
+        raise DeckError(f"--{column}-unit: {error}") from error
+    return text
 
 
 def _density(text: str | None) -> float | None:

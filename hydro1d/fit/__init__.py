@@ -5,9 +5,20 @@
 >>> print(found.table()); print(found.deck_fragment("foam", density=51.6))
 """
 
-from hydro1d.fit._curve import MeasuredCurve, read_curve
+from hydro1d.fit._curve import Measured, MeasuredCurve, read_curve, read_measured
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
 from hydro1d.fit._fitting import Fit, fit_curve, fittable
 from hydro1d.fit._plot import draw
 
-__all__ = ["Efficiency", "Fit", "MeasuredCurve", "draw", "energy_efficiency", "fit_curve", "fittable", "read_curve"]
+__all__ = [
+    "Efficiency",
+    "Fit",
+    "Measured",
+    "MeasuredCurve",
+    "draw",
+    "energy_efficiency",
+    "fit_curve",
+    "fittable",
+    "read_curve",
+    "read_measured",
+]

@@ -10,6 +10,8 @@ import numpy as np
 
 from hydro1d.errors import DeckError, FileProblem
 
+LEAST_PASCALS = 1e3  # the softest foams bear more than this before they densify
+
 
 class MeasuredCurve(NamedTuple):
     """Strain and stress (Pa), compression positive, strain rising from 0 or above to below 1."""
@@ -18,24 +20,77 @@ class MeasuredCurve(NamedTuple):
     stress: np.ndarray
 
 
+class Measured(NamedTuple):
+    """A curve from a file, and in sentences what was assumed or left out in reading it."""
+
+    curve: MeasuredCurve
+    notes: tuple[str, ...]
+
+
 def read_curve(path: str | os.PathLike[str], largest_strain: float = 1.0) -> MeasuredCurve:
     """Read a CSV of two columns, strain and stress, header and units optional, up to `largest_strain`.
 
     Raises FileProblem if it cannot be read, DeckError if it is no such curve.
     """
-    from hydro1d.tables import read_table
+    return read_measured(path, largest_strain).curve
+
+
+def read_measured(
+    path: str | os.PathLike[str], largest_strain: float = 1.0, strain_unit: str = "", stress_unit: str = ""
+) -> Measured:
+    """Read a measured curve as testing machines write it, and say what was made of it.
+
+    Units are those given here, else those of the header, else 1 and Pa. Points at which the strain does not rise (noise,
+    unloading at the end) are left out; a file in which compression is negative is turned. Raises FileProblem if the file
+    cannot be read, DeckError if it holds no curve, or stresses without a unit that cannot be Pa.
+    """
+    from hydro1d.tables import read_rows
 
     source = Path(path)
+    if source.is_dir():
+        raise FileProblem(f"cannot read {source}: it is a folder")
     if not source.is_file():
         raise FileProblem(f"cannot read {source}: no such file")
     try:
-        rows = read_table(source.name, ("1", "Pa"), source.parent)
+        rows, given = read_rows(source.name, ("1", "Pa"), source.parent, (strain_unit, stress_unit))
     except OSError as error:
         raise FileProblem(f"cannot read {source}: {error.strerror or error}") from error
     except ValueError as error:
         raise DeckError(f"{error}") from error
-    table = np.array(rows, dtype=float)
-    return checked(table[:, 0], table[:, 1], largest_strain)
+    table = np.array([pair for _, pair in rows], dtype=float)
+    strain, stress, notes = _turned(table[:, 0], table[:, 1])
+    rising = strain > np.concatenate([[-np.inf], np.maximum.accumulate(strain)[:-1]])
+    kept = rising & (strain >= 0.0)
+    if not kept.all():
+        count = int((~kept).sum())
+        if count > 0.5 * len(kept):
+            raise DeckError(
+                f"{source}: the strain does not rise at {count} of {len(kept)} points; it must be the first column, of a "
+                "single loading"
+            )
+        notes.append(f"left out: {count} of {len(kept)} points, at which the strain does not rise or is negative")
+    curve = checked(strain[kept], stress[kept], largest_strain)
+    if not given[1]:
+        notes.append(_about_pascals(source, curve))
+    return Measured(curve, tuple(notes))
+
+
+def _turned(strain: np.ndarray, stress: np.ndarray) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """Compression positive, whatever the file's sign."""
+    if strain[-1] < 0.0 and np.median(strain) < 0.0 and np.median(stress) < 0.0:
+        return -strain, -stress, ["compression is negative in the file; both signs are turned"]
+    return strain, stress, []
+
+
+def _about_pascals(source: Path, curve: MeasuredCurve) -> str:
+    """A remark on stresses without a unit. Raises DeckError where they cannot be pascals."""
+    largest = float(curve.stress.max())
+    if largest < LEAST_PASCALS:
+        raise DeckError(
+            f"{source}: the stress has no unit, and its largest value, {largest:g}, is too small for Pa; is it MPa? "
+            "Write the unit into the header, stress [MPa], or give it with --stress-unit MPa"
+        )
+    return f"the stress has no unit in {source.name} and is taken as Pa (largest: {largest / 1e6:.4g} MPa)"
 
 
 def checked(strain: np.ndarray, stress: np.ndarray, largest_strain: float = 1.0) -> MeasuredCurve:
@@ -47,7 +102,8 @@ def checked(strain: np.ndarray, stress: np.ndarray, largest_strain: float = 1.0)
     if strain[0] < 0.0 or strain[-1] >= 1.0:
         raise DeckError(
             f"strains run from {strain[0]:g} to {strain[-1]:g}; they must lie between 0 and 1, compression positive "
-            "(percent needs the unit % in the header)"
+            ""
+            "(percent needs the unit %, in the header or with --strain-unit %)"
         )
     if not stress.max() > 0.0:
         raise DeckError("no stress above zero; compression must be positive")

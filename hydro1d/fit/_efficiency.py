@@ -11,11 +11,13 @@ import numpy as np
 
 from hydro1d.fit._curve import MeasuredCurve
 
+_FALLEN = 0.95  # of its maximum: noise alone does not bring η lower
+
 
 class Efficiency(NamedTuple):
     """efficiency η(ε) = ∫σ dε/σ over `strain`; densification_strain where it is largest; plateau_stress, Pa.
 
-    complete: False where η still rises at the last point, so that the curve ends before the foam densifies.
+    complete: False where η has not fallen clearly at the last point, so that the curve ends before the foam densifies.
     """
 
     strain: np.ndarray
@@ -43,7 +45,7 @@ def energy_efficiency(curve: MeasuredCurve) -> Efficiency:
         if not start < end:
             break
         plateau = float((energy[best] - np.interp(start, strain, energy)) / (end - start))
-    return Efficiency(strain, efficiency, start, end, plateau, best < len(strain) - 1)
+    return Efficiency(strain, efficiency, start, end, plateau, bool(efficiency[-1] < _FALLEN * efficiency[best]))
 
 
 def _first_reached(strain: np.ndarray, stress: np.ndarray, level: float) -> float:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, Hydro1dError
-from hydro1d.fit._curve import MeasuredCurve, checked, read_curve
+from hydro1d.fit._confidence import Confidence, confidence
+from hydro1d.fit._curve import MeasuredCurve, checked, read_measured
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
 from hydro1d.fit._models import MODELS, Model, Parameter
 
 _MOST_POINTS = 1500
-_CONFIDENCE = 0.95
 _PENALTY = 1e3
 
 
@@ -24,6 +26,8 @@ class Fit:
 
     values and intervals (95 % confidence, low and high) by the deck's names, SI; residuals = law − measured, Pa, at the
     measured strains; rms, Pa; relative_rms, of what was minimised; efficiency: plateau and densification without a law.
+    undetermined: parameters that the curve does not fix; at_bound: those that went as far as they may. Intervals of
+    both are infinite. notes: what was assumed or left out in reading the curve.
     """
 
     law: str
@@ -36,6 +40,9 @@ class Fit:
     relative_rms: float
     efficiency: Efficiency
     density: float | None
+    undetermined: tuple[str, ...] = ()
+    at_bound: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """The fitted loading curve, Pa."""
@@ -45,10 +52,32 @@ class Fit:
         """The parameters with their intervals as text."""
         lines = [f"{'parameter':<22}{'value':>14}   95 % confidence"]
         for name, value in self.values.items():
-            low, high = self.intervals[name]
-            unit = "" if self.units[name] == "1" else f" {self.units[name]}"
-            lines.append(f"{name:<22}{value:>14.6g}   {low:.6g} … {high:.6g}{unit}")
+            size, unit = (1e6, " MPa") if self.units[name] == "Pa" else (1.0, f" {self.units[name]}".replace(" 1", ""))
+            low, high = (bound / size for bound in self.intervals[name])
+            told = f"{low:.5g} … {high:.5g}{unit}" if np.isfinite([low, high]).all() else self.doubt(name)
+            lines.append(f"{name:<22}{f'{value / size:.6g}{unit}':>14}   {told}")
         return "\n".join(lines)
+
+    def doubt(self, name: str) -> str:
+        """Why a parameter is not to be trusted, in a few words; "" if it is."""
+        if name in self.at_bound:
+            return "none: at its bound"
+        return "none: the curve does not determine it" if name in self.undetermined else ""
+
+    def warnings(self) -> list[str]:
+        """What a user must know before using the parameters, in sentences."""
+        found = [*self.notes]
+        if self.undetermined:
+            found.append(
+                f"the curve does not determine {_listed(self.undetermined)}: other values fit as well. Measure further "
+                "(to higher strain, or more points where it acts) or take a law with fewer parameters"
+            )
+        if self.at_bound:
+            found.append(
+                f"{_listed(self.at_bound)} went to the end of what a fit allows: the curve ends before it shows what that "
+                "stands for, or does not have the shape of the law. Look at the residuals; another law may fit better"
+            )
+        return found
 
     def deck_fragment(self, material: str = "foam", density: float | None = None) -> str:
         """A [material] table for a deck; without a density that line is left for the user to fill in."""
@@ -56,8 +85,13 @@ class Fit:
         given = f'density = "{known:.6g} kg/m^3"' if known is not None else '# density = "... kg/m^3"   # required'
         lines = [f"[material.{material}]", f'law = "{self.law}"', given]
         for name, value in self.values.items():
-            lines.append(f"{name} = {_in_deck(value, self.units[name])}")
+            doubt = self.doubt(name).removeprefix("none: ")
+            lines.append(f"{name} = {_in_deck(value, self.units[name])}" + (f"   # {doubt}" if doubt else ""))
         return "\n".join(lines)
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def _in_deck(value: float, unit: str) -> str:
@@ -76,26 +110,31 @@ def fit_curve(
     law: str = "epph-tangent",
     density: float | None = None,
     largest_strain: float = 1.0,
+    strain_unit: str = "",
+    stress_unit: str = "",
 ) -> Fit:
     """Fit a law to a measured quasi-static curve (or the CSV file of one) by least squares.
 
     What is minimised is the difference of the stresses over √(plateau² + stress²): absolute on the plateau, relative in
-    densification, where the stress is many times higher. density (kg/m^3) is needed by `epph`, whose hardening has it.
+    densification, where the stress is many times higher. density (kg/m^3) is needed by `epph`, whose hardening has it;
+    strain_unit and stress_unit are those of a file whose header names none.
     Raises DeckError for an unknown law, a missing density or a curve that cannot be fitted, FileProblem for the file.
     """
     if law not in MODELS:
-        raise DeckError(f"no fit for the law {law[:60]!r}; there are {', '.join(MODELS)}")
+        raise DeckError(f"no fit for the law {law[:60]!r}{suggestion(law, fittable())}; there are {', '.join(MODELS)}")
     model = MODELS[law]
     if model.needs_density and density is None:
         raise DeckError(f"{law} needs the density: its hardening (Eq. 39) depends on it")
     if isinstance(curve, str | os.PathLike):
-        curve = read_curve(Path(curve), largest_strain)
+        curve, notes = read_measured(Path(curve), largest_strain, strain_unit, stress_unit)
     else:
-        curve = checked(curve.strain, curve.stress, largest_strain)
+        curve, notes = checked(curve.strain, curve.stress, largest_strain), ()
     found = energy_efficiency(curve)
     parameters = model.parameters(curve, found, density or 1.0)
-    answer = _solve(model, _thinned(curve), parameters, density, found.plateau_stress)
-    return _result(law, curve, parameters, answer, density, found)
+    difference = _difference(model, _thinned(curve), density, found.plateau_stress)
+    values, jacobian = _solve(difference, parameters)
+    trust = confidence(parameters, values, jacobian, difference)
+    return _result(law, curve, parameters, values, difference(values), trust, density, found, notes)
 
 
 def _thinned(curve: MeasuredCurve) -> MeasuredCurve:
@@ -107,24 +146,30 @@ def _stress(model: Model, strain: np.ndarray, density: float | None, values: lis
     return np.asarray(model.curve(density or 1.0, *values).stress(strain), dtype=float)
 
 
-def _solve(
-    model: Model, curve: MeasuredCurve, parameters: list[Parameter], density: float | None, plateau: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Best parameters, residuals, Jacobian. Several starts: a corner in the curve leaves local minima."""
-    from scipy.optimize import least_squares
-
-    low, high = (np.array([getattr(parameter, side) for parameter in parameters]) for side in ("low", "high"))
-    start = np.array([parameter.start for parameter in parameters])
+def _difference(
+    model: Model, curve: MeasuredCurve, density: float | None, plateau: float
+) -> Callable[[np.ndarray], np.ndarray]:
+    """The function that is minimised: parameters -> law − measured, weighted."""
     weight = 1.0 / np.hypot(plateau, curve.stress)
 
     def difference(values: np.ndarray) -> np.ndarray:
         try:
-            return np.clip(
-                (_stress(model, curve.strain, density, list(values)) - curve.stress) * weight, -_PENALTY, _PENALTY
-            )
+            gap = _stress(model, curve.strain, density, list(values)) - curve.stress
+            return np.clip(gap * weight, -_PENALTY, _PENALTY)
         except ValueError:  # parameters that make no curve
             return np.full(len(curve.strain), _PENALTY)
 
+    return difference
+
+
+def _solve(
+    difference: Callable[[np.ndarray], np.ndarray], parameters: list[Parameter]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Best parameters and Jacobian. Several starts: a corner in the curve leaves local minima."""
+    from scipy.optimize import least_squares
+
+    low, high = (np.array([getattr(parameter, side) for parameter in parameters]) for side in ("low", "high"))
+    start = np.array([parameter.start for parameter in parameters])
     best = None
     for factor in (1.0, 0.85, 0.7):
         first = start.copy()
@@ -139,21 +184,23 @@ def _solve(
             best = answer
     if best is None or not np.isfinite(best.cost) or best.cost >= 0.1 * _PENALTY**2:
         raise Hydro1dError("no parameters of this law come near the curve")
-    return best.x, best.fun, best.jac
+    return best.x, best.jac
 
 
 def _result(
     law: str,
     curve: MeasuredCurve,
     parameters: list[Parameter],
-    answer: tuple[np.ndarray, np.ndarray, np.ndarray],
+    values: np.ndarray,
+    differences: np.ndarray,
+    trust: Confidence,
     density: float | None,
     found: Efficiency,
+    notes: tuple[str, ...],
 ) -> Fit:
-    values, differences, jacobian = answer
-    half = _half_widths(differences, jacobian)
-    residuals = _stress(MODELS[law], curve.strain, density, list(values)) - curve.stress
     names = [parameter.name for parameter in parameters]
+    half, vague, ended = trust
+    residuals = _stress(MODELS[law], curve.strain, density, list(values)) - curve.stress
     return Fit(
         law,
         curve,
@@ -165,19 +212,7 @@ def _result(
         float(np.sqrt(np.mean(differences**2))),
         found,
         density,
+        tuple(name for name, is_vague in zip(names, vague, strict=True) if is_vague),
+        tuple(name for name, is_ended in zip(names, ended, strict=True) if is_ended),
+        notes,
     )
-
-
-def _half_widths(differences: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
-    """Half of each 95 % interval, from the linearised covariance; infinite where the curve says nothing."""
-    from scipy.stats import t as student
-
-    freedom = max(len(differences) - jacobian.shape[1], 1)
-    size = np.linalg.norm(jacobian, axis=0)
-    size[size == 0.0] = 1.0
-    variance = float(differences @ differences) / freedom
-    _, singular, right = np.linalg.svd(jacobian / size, full_matrices=False)
-    inverse = np.divide(1.0, singular, out=np.full(len(singular), np.inf), where=singular > 1e-12 * singular[0])
-    with np.errstate(invalid="ignore"):
-        spread = np.sqrt(np.nansum((right.T * inverse) ** 2, axis=1) * variance) / size
-    return np.asarray(student.ppf(0.5 + 0.5 * _CONFIDENCE, freedom) * spread)

@@ -1,5 +1,7 @@
 """Fits: parameters come back, intervals cover them, energy efficiency, what cannot be fitted."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -76,13 +78,81 @@ def test_what_cannot_be_fitted_is_said(call, message):
         call()
 
 
+def written(path, curve, head, separator=",", decimal=".", scale=(1.0, 1e-6), encoding="utf-8"):
+    rows = [
+        f"{e * scale[0]:.6f}{separator}{s * scale[1]:.6f}".replace(".", decimal) for e, s in zip(*curve, strict=True)
+    ]
+    path.write_text("\n".join([head, *rows]), encoding=encoding)
+    return path
+
+
 def test_files(tmp_path):
     with pytest.raises(FileProblem, match="no such file"):
         fit.read_curve(tmp_path / "none.csv")
-    bad = tmp_path / "bad.csv"
-    bad.write_text("strain,stress\n0.1,1\n0.05,2\n")
-    with pytest.raises(DeckError, match="increase"):
+    with pytest.raises(FileProblem, match="a folder"):
+        fit.read_curve(tmp_path)
+    bad = written(tmp_path / "bad.csv", fit.MeasuredCurve(np.linspace(0.9, 0.0, 40), np.full(40, 1e6)), "strain,stress")
+    with pytest.raises(DeckError, match="does not rise at 39 of 40"):
         fit.read_curve(bad)
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        {"head": "Dehnung [%];Spannung [N/mm²]", "separator": ";", "decimal": ",", "scale": (100.0, 1e-6), "encoding": "cp1252"},
+        {"head": "strain\tstress [kPa]", "separator": "\t", "decimal": ",", "scale": (1.0, 1e-3)},
+        {"head": "strain [MPa],stress", "options": {"strain_unit": "%", "stress_unit": "MPa"}, "scale": (100.0, 1e-6)},
+        {"head": "strain,stress [MPa]", "scale": (-1.0, -1e-6)},
+    ],
+)  # fmt: skip
+def test_curves_as_machines_write_them(tmp_path, form):
+    options = form.pop("options", {})
+    exact = measured(TANGENT)
+    found = fit.read_measured(written(tmp_path / "c.csv", exact, **form), **options).curve
+    assert np.allclose(found.strain, exact.strain, atol=1e-6) and np.allclose(found.stress, exact.stress, atol=2.0)
+
+
+def test_what_is_assumed_of_a_file_is_said(tmp_path):
+    path = tmp_path / "c.csv"
+    loading = measured(TANGENT)
+    unloading = fit.MeasuredCurve(np.linspace(0.9, 0.8, 30), np.linspace(3e6, 0.0, 30))
+    both = fit.MeasuredCurve(*(np.concatenate(pair) for pair in zip(loading, unloading, strict=True)))
+    found = fit.read_measured(written(path, both, "strain,stress", scale=(1.0, 1.0)))
+    assert np.allclose(found.curve.strain, loading.strain, atol=1e-6)
+    assert "left out: 30 of 330 points" in found.notes[0] and "taken as Pa (largest: 4" in found.notes[1]
+    assert fit.read_measured(written(path, loading, "strain,stress [MPa]")).notes == ()
+    with pytest.raises(DeckError, match=r"4\.0.* too small for Pa; is it MPa.*--stress-unit MPa"):
+        fit.read_measured(written(path, loading, "strain,stress"))
+    with pytest.raises(DeckError, match="--strain-unit %"):
+        fit.read_measured(written(path, loading, "strain,stress [MPa]", scale=(100.0, 1e-6)))
+
+
+@pytest.mark.parametrize(
+    ("curve", "law", "doubtful"),
+    [
+        (measured(TANGENT, noise=0.02), "epph-tangent", set()),
+        (measured(TANGENT, noise=0.02), "trilinear", set()),
+        (measured(TANGENT, noise=0.02, last=0.5), "trilinear", {"densification_strain", "locking_modulus"}),
+        (measured(TANGENT, noise=0.02, last=0.5), "epph-tangent", {"densification_strain", "beta", "gamma"}),
+        (measured(TANGENT, noise=0.02, last=0.5), "rph", {"hardening"}),
+        (measured(analytic.RPH(51.6, 22e6, 0.8e6, 0.05e6)), "epph-tangent", {"gamma"}),
+    ],
+)
+def test_what_the_curve_does_not_say_is_named(curve, law, doubtful):
+    found = fit.fit_curve(curve, law)
+    assert {*found.undetermined, *found.at_bound} == doubtful
+    for name, (low, high) in found.intervals.items():
+        assert np.isfinite([low, high]).all() == (name not in doubtful)
+        assert sum(bool(re.search(rf"\b{name}\b", text)) for text in found.warnings()) == (name in doubtful)
+        line = next(line for line in found.deck_fragment().splitlines() if line.startswith(f"{name} = "))
+        assert line.endswith(found.doubt(name).removeprefix("none: ") or line)
+
+
+def test_a_modulus_without_an_elastic_part_is_undetermined():
+    strain = np.linspace(0.1, 0.92, 200)
+    noise = 1.0 + 0.02 * np.random.default_rng(1).standard_normal(200)
+    found = fit.fit_curve(fit.MeasuredCurve(strain, TANGENT.stress(strain) * noise))
+    assert "modulus" in found.undetermined and "densification_strain" not in found.undetermined
 
 
 def test_commands(tmp_path, monkeypatch, capsys):
@@ -94,6 +164,14 @@ def test_commands(tmp_path, monkeypatch, capsys):
     out = capsys.readouterr().out
     assert "[material.foam]" in out and "95 % confidence" in out and "by energy efficiency" in out
     assert (tmp_path / "foam-epph-tangent.png").read_bytes().startswith(b"\x89PNG")
+    (tmp_path / "plain.csv").write_text("\n".join(rows))
+    assert main(["laws", "fit", "plain.csv"]) == 2
+    assert main(["laws", "fit", "plain.csv", "--stress-unit", "Mpa"]) == 2
+    assert main(["laws", "fit", "plain.csv", "--law", "ephp"]) == 2
+    assert main(["laws", "fit", "plain.csv", "--stress-unit", "MPa"]) == 0
+    assert main(["laws", "fit", "foam.csv", "--law", "trilinear", "--max-strain", "0.5"]) == 0
+    assert "note: densification_strain and locking_modulus went to the end" in capsys.readouterr().out
+    assert main(["laws", "fit", "."]) == 4
     assert main(["laws", "fit", "foam.csv", "--density", "-3"]) == 2
     assert main(["laws", "fit", "nix.csv"]) == 4
     assert main(["laws", "epph", "more"]) == 2

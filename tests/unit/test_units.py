@@ -200,6 +200,11 @@ EXPECTED = ((0.0, 0.0), (0.5, 1e6), (0.6, 3e6))
         "\ufeffstrain\tstress\r\n0\t0\r\n0.5\t1e6\r\n0.6\t3e6\r\n",
         "# measured in 1987\n\n0 0\n0.5  1e6 # knee\n0.6 3e6\n",
         "strain,stress\n0,0 Pa\n0.5,1 MPa\n0.6,3 MPa\n",
+        "Dehnung [%];Spannung [MPa]\n0,0;0,0\n50,0;1,0\n60;3\n",
+        "strain\tstress [MPa]\n0\t0\n0,5\t1,0\n0,6\t3\n",
+        "strain stress\n1 MPa\n0,0 0,0\n0,5 1,0\n0,6 3,0\n",
+        "strain, stress [N/mm²]\n0, 0\n0.5, 1\n0.6, 3\n",
+        "strain,stress\n0;0\n5,0e-1;1e6\n,6;3e6\n",
     ],
 )
 def test_csv_forms(tmp_path, text):
@@ -228,6 +233,8 @@ def test_csv_forms(tmp_path, text):
         ("strain,stress\n", ["no row of numbers"]),
         ("", ["no row of numbers"]),
         ("0,0\n0,5,1,5\n", ["line 2", "4 columns"]),
+        ("0,0;0\n0.5;1\n", ["line 1", "0,0", "decimal point"]),
+        ("0\t0\n0.5\t1,234\n", ["line 2", "1,234", "decimal point"]),
     ],
 )
 def test_bad_csv_names_file_and_line(tmp_path, text, words):
@@ -241,6 +248,11 @@ def test_bad_csv_names_file_and_line(tmp_path, text, words):
 def test_files_that_are_none(tmp_path, name):
     with pytest.raises(TableError):
         read_table(name, ("1", "Pa"), tmp_path)
+
+
+def test_csv_of_an_old_instrument(tmp_path):
+    (tmp_path / "curve.csv").write_bytes("Dehnung;Spannung [N/mm²]\n0;0\n0,5;1\n0,6;3\n".encode("cp1252"))
+    assert read_table("curve.csv", ("1", "Pa"), tmp_path) == EXPECTED
 
 
 def test_csv_that_is_no_text(tmp_path):
