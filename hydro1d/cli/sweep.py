@@ -13,6 +13,10 @@ from hydro1d.cli import _common
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
+    from hydro1d.sweep import Sweep, Table
+
+MOST_REASONS = 5
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d sweep``."""
@@ -27,9 +31,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress, no summary")
 
 
-def run(args: argparse.Namespace) -> None:
-    """Check, run, write HDF5 and CSV."""
-    from hydro1d.errors import DeckError
+def run(args: argparse.Namespace) -> int:
+    """Check, run, write HDF5 and CSV; 3 if every run broke down."""
+    from hydro1d.errors import BreakdownError, DeckError
     from hydro1d.store import check_target
     from hydro1d.sweep import load_sweep, run_sweep
     from hydro1d.sweep.table import check_text_target
@@ -50,9 +54,26 @@ def run(args: argparse.Namespace) -> None:
     table.write_hdf5(output)
     table.write_csv(table_file)
     journal.unlink(missing_ok=True)
+    failed = [k for k, row in enumerate(table.rows()) if row["status"] == "failed"]
     if not args.quiet:
-        failed = sum(status == "failed" for status in table["status"]) if len(table) else 0
-        print(f"{_common.count(len(table), 'run')}, {failed} failed\ntable: {output}, {table_file}")
+        lines = [f"{_common.count(len(table), 'run')}, {len(failed)} failed", *_reasons(sweep, table, failed)]
+        print("\n".join([*lines, f"table: {output}, {table_file}"]))
+    return BreakdownError.exit_code if failed and len(failed) == len(table) else 0
+
+
+def _reasons(sweep: Sweep, table: Table, failed: list[int]) -> list[str]:
+    """A line for each of the first runs that failed: where they stand, and why they did."""
+    lines = []
+    for k in failed[:MOST_REASONS]:
+        where = ", ".join(f"{p.label} = {_shown(v)}" for p, v in zip(sweep.parameters, sweep.points()[k], strict=True))
+        lines.append(f"  run {k}, {where}: {table['error'][k]}")
+    if len(failed) > MOST_REASONS:
+        lines.append(f"  … and {len(failed) - MOST_REASONS} more; the column error of the table holds all reasons")
+    return lines
+
+
+def _shown(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 @contextmanager

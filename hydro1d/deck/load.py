@@ -44,6 +44,7 @@ from hydro1d.units import shorten
 from hydro1d.viscosity import Viscosity
 
 _SECTIONS = ("title", "material", "layer", "left", "right", "time", "viscosity", "output", "checkpoint")
+_LAYER_KEYS = ("material", "thickness", "zones", "velocity")  # a deck names the law by its material
 _Part = TypeVar("_Part", bound=Component)
 
 
@@ -66,6 +67,8 @@ def load_deck(
             path = Path(source)
             text = read_text(path)
         data = parse(text, path)
+    if "quantities" in data and "layer" not in data:
+        raise DeckError(f"{path or 'the deck'} is a sweep, not a deck; hydro1d sweep takes it")
     origins, found = overriding.apply(data, overrides)
     builder = _Builder(data, folder or (path.parent if path else Path.cwd()))
     parts = builder.build()
@@ -230,12 +233,13 @@ class _Builder:
             self.found.append(Finding((*path, "material"), "is missing", None, one_of(list(materials))))
         elif not isinstance(name, str) or name not in materials:
             self.found.append(unknown_word((*path, "material"), name, "a material of this deck", materials))
-        if "law" in table:
-            self.found.append(unknown_key((*path, "law"), ("material", "thickness", "zones", "velocity")))
+        unknown = [key for key in table if key not in _LAYER_KEYS]
+        self.found += [unknown_key((*path, key), _LAYER_KEYS) for key in unknown[:MOST_FOUND]]
         spec, law = materials.get(name, ("", None)) if isinstance(name, str) else ("", None)
         self.names[f"layer[{index}].law"] = spec
         stand_in = law if law is not None else Law.model_construct()  # the other keys are checked all the same
-        values = {**table, "law": stand_in, "material": name if isinstance(name, str) else ""}
+        known = {key: value for key, value in table.items() if key in _LAYER_KEYS}
+        values = {**known, "law": stand_in, "material": name if isinstance(name, str) else ""}
         layer = self._validated(Layer, values, path)
         return layer if law is not None else None
 

@@ -16,16 +16,16 @@ _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 _LONG_INTEGER = re.compile(r"[0-9_]{4000}")
 
 
-def read_text(path: Path) -> str:
-    """Return the text of a deck's file. Raises FileProblem if it cannot be read, DeckError if it is not UTF-8."""
+def read_text(path: Path, what: str = "deck") -> str:
+    """Return the text of a deck's (or another) file. Raises FileProblem if it cannot be read, DeckError if it is not UTF-8."""
     try:
         with open(path, "rb") as file:
             raw = file.read(LARGEST_DECK + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         reason = getattr(error, "strerror", None) or str(error)
-        raise FileProblem(f"the deck {str(path)[:300]!r} cannot be read: {reason}") from None
+        raise FileProblem(f"the {what} {str(path)[:300]!r} cannot be read: {reason}") from None
     if raw.startswith(b"\x89HDF"):
-        raise DeckError(f"{path} is a result (HDF5), not a deck; hydro1d plot and hydro1d report take it")
+        raise DeckError(f"{path} is a result (HDF5), not a {what}; hydro1d plot and hydro1d report take it")
     if len(raw) > LARGEST_DECK:
         raise DeckError(f"{path}: larger than {LARGEST_DECK // 1024} kB; put long tables into CSV files")
     try:

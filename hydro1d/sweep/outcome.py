@@ -10,9 +10,10 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from hydro1d.deck import Deck
+from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError
 from hydro1d.store import Run
-from hydro1d.sweep.quantity import Quantity, applied_peak, parse_quantity, support_side
+from hydro1d.sweep.quantity import Quantity, applied_peak, parse_quantity, quantity_names, support_side
 from hydro1d.units import UnitError, convert
 
 WORDS = ("enhanced", "fully_crushed", "separated")
@@ -83,7 +84,8 @@ def parse_outcome(text: str) -> Outcome:
     match = _COMPARISON.fullmatch(word)
     allowed = f"{', '.join(WORDS)}, or QUANTITY > VALUE with >, >=, < or <="
     if match is None:
-        raise DeckError(f"{word[:80]!r} is not an outcome; allowed: {allowed}")
+        near = suggestion(word, [*WORDS, *quantity_names()])
+        raise DeckError(f"{word[:80]!r} is not an outcome{near}; allowed: {allowed}")
     try:
         quantity = parse_quantity(match["quantity"])
         return Outcome(word, quantity, match["sign"], _bound(match["value"], quantity.units))

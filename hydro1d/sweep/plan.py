@@ -1,4 +1,4 @@
-"""SWEEP.toml: a base deck, parameters, quantities. Its mistakes are told like a deck's: at once, with their place."""
+"""A sweep: a base deck, parameters, quantities, how they combine, and what must fit together."""
 
 from __future__ import annotations
 
@@ -10,12 +10,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from pydantic import Field, ValidationError, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
-from hydro1d.deck.messages import Finding, deck_error, findings_of
-from hydro1d.deck.positions import Positions
-from hydro1d.deck.read import parse, read_text
-from hydro1d.errors import DeckError, FileProblem
+from hydro1d.deck.messages import Finding, deck_error
+from hydro1d.errors import DeckError
 from hydro1d.parameters import Component
 from hydro1d.sweep.base import base_data, check_key, si, value_problem
 from hydro1d.sweep.job import Job, override
@@ -101,16 +99,6 @@ class Parameter(Component):
         return self.at([k / (count - 1) for k in range(count)] if count > 1 else [0.0])
 
 
-class _File(Component):
-    title: str = Field("", max_length=1000, description="a line of text")
-    deck: str = Field(..., description="the base deck's file, relative to this one")
-    set: tuple[str, ...] = Field((), description="overrides for every run, such as layer[0].zones=200")
-    plan: Plan = Field("grid", description="how parameters combine")
-    samples: int | None = Field(None, ge=1, le=MOST_RUNS, description="number of samples")
-    seed: int = Field(0, ge=0, description="seed of the samples")
-    quantities: tuple[str, ...] = Field(..., min_length=1, description="quantities to take from each run")
-
-
 @dataclass(frozen=True)
 class Sweep:
     """A sweep: base deck (as data, with the folder of its files), parameters, quantities and how parameters combine.
@@ -153,17 +141,9 @@ class Sweep:
 
     def problems(self) -> list[Finding]:
         """What is wrong between the parts."""
-        found = _plan_problems(self)
-        found += [
-            problem for k, text in enumerate(self.quantities) if (problem := _quantity_problem(k, text)) is not None
-        ]
-        names = [parameter.label for parameter in self.parameters]
-        for k, name in enumerate(names):
-            if name in names[:k] or name in self.quantities or name in ("status", "error", "cycles", "run"):
-                found.append(Finding(("parameter", k), f"two columns would be called {name}", name))
-        for k, parameter in enumerate(self.parameters):
-            found += _value_problems(self, k, parameter)
-        return found
+        found = plan_problems(self, self.parameters)
+        found += quantity_problems(self.quantities)
+        return found + parameter_problems(self, self.parameters)
 
     @cached_property
     def _points(self) -> list[tuple[Any, ...]]:
@@ -197,12 +177,15 @@ def _samples(plan: str, dimensions: int, count: int, seed: int) -> np.ndarray:
     return kinds[plan](dimensions, seed=random).random(count)
 
 
-def _plan_problems(sweep: Sweep) -> list[Finding]:
-    if not sweep.parameters:
+def plan_problems(sweep: Sweep, parameters: Sequence[Parameter | None]) -> list[Finding]:
+    """What the plan has to say against the parameters; None stands for one that is wrong itself."""
+    if not parameters:
         return [Finding(("parameter",), "there is none", None, "one [[parameter]] or more")]
     found = []
     sampled = sweep.plan in SAMPLERS
-    for k, parameter in enumerate(sweep.parameters):
+    for k, parameter in enumerate(parameters):
+        if parameter is None:
+            continue
         if sampled and parameter.values is not None:
             found.append(
                 Finding(("parameter", k, "values"), f'plan = "{sweep.plan}" samples ranges', None, "first and last")
@@ -219,22 +202,42 @@ def _plan_problems(sweep: Sweep) -> list[Finding]:
         found.append(
             Finding(("samples",), f'plan = "{sweep.plan}" takes no samples', None, f"with plan = {', '.join(SAMPLERS)}")
         )
-    if found or sampled:
+    whole = [parameter for parameter in parameters if parameter is not None]
+    if found or sampled or len(whole) < len(parameters):
         return found
-    lengths = [len(p.values) if p.values is not None else p.count or 1 for p in sweep.parameters]
+    return _size_problems(sweep, [len(p.values) if p.values is not None else p.count or 1 for p in whole])
+
+
+def _size_problems(sweep: Sweep, lengths: list[int]) -> list[Finding]:
     if sweep.plan == "zip" and len(set(lengths)) > 1:
-        found.append(Finding(("plan",), f'plan = "zip" needs lists of one length, not {", ".join(map(str, lengths))}'))
+        return [Finding(("plan",), f'plan = "zip" needs lists of one length, not {", ".join(map(str, lengths))}')]
     if sweep.plan == "grid" and int(np.prod(np.array(lengths, dtype=float))) > MOST_RUNS:
-        found.append(Finding(("plan",), f"the grid has more than {MOST_RUNS} points"))
+        return [Finding(("plan",), f"the grid has more than {MOST_RUNS} points")]
+    return []
+
+
+def quantity_problems(quantities: Sequence[str]) -> list[Finding]:
+    """Quantities that there are not."""
+    found = []
+    for k, text in enumerate(quantities):
+        try:
+            parse_quantity(text)
+        except ValueError as error:
+            found.append(Finding(("quantities", k), str(error), text))
     return found
 
 
-def _quantity_problem(k: int, text: str) -> Finding | None:
-    try:
-        parse_quantity(text)
-    except ValueError as error:
-        return Finding(("quantities", k), str(error), text)
-    return None
+def parameter_problems(sweep: Sweep, parameters: Sequence[Parameter | None]) -> list[Finding]:
+    """Columns of one name, and values that the deck does not take."""
+    found, names = [], [*sweep.quantities, "status", "error", "cycles", "run"]
+    for k, parameter in enumerate(parameters):
+        if parameter is None:
+            continue
+        if parameter.label in names:
+            found.append(Finding(("parameter", k), f"two columns would be called {parameter.label}", parameter.label))
+        names.append(parameter.label)
+        found += _value_problems(sweep, k, parameter)
+    return found
 
 
 def _value_problems(sweep: Sweep, k: int, parameter: Parameter) -> list[Finding]:
@@ -243,10 +246,8 @@ def _value_problems(sweep: Sweep, k: int, parameter: Parameter) -> list[Finding]
     if parameter.values is not None:
         tried = [(("values", n), value) for n, value in enumerate(parameter.values[:100])]
     else:
-        low, high = (round(end) if parameter.integer else end for end in parameter.ends)
-        texts = (parameter.first, parameter.last)
-        ends = zip(("first", "last"), texts, (low, high), strict=True)
-        tried = [((name,), text if isinstance(text, str) else number) for name, text, number in ends]
+        texts = {name: getattr(parameter, name) for name in ("first", "last")}
+        tried = [((name,), _at_end(parameter, text)) for name, text in texts.items() if text is not None]
     found = []
     for place, value in tried:
         for key in parameter.keys:
@@ -256,47 +257,8 @@ def _value_problems(sweep: Sweep, k: int, parameter: Parameter) -> list[Finding]
     return found
 
 
-def load_sweep(path: str | Path) -> Sweep:
-    """Read a SWEEP.toml. Raises DeckError with every mistake, its line and column; FileProblem if it "
-    "cannot be read."""
-    path = Path(path)
-    text = read_text(path)
-    data = parse(text, path)
-    rows = data.pop("parameter", [])
-    found: list[Finding] = []
-    parameters = []
-    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-        found.append(Finding(("parameter",), "must be written as [[parameter]]", None, "[[parameter]]"))
-        rows = []
-    for k, row in enumerate(rows):
-        try:
-            parameters.append(Parameter(**row))
-        except ValidationError as error:
-            found += findings_of(error, Parameter, row, ("parameter", k))
-    file, base = None, None
-    try:
-        file = _File(**data)
-    except ValidationError as error:
-        found += findings_of(error, _File, data, ())
-    if file is not None:
-        base = _base(path.parent / file.deck, file, found)
-    if not found and file is not None and base is not None:
-        sweep = Sweep(
-            *base, tuple(parameters), file.quantities, file.set, file.plan, file.samples, file.seed, file.title
-        )
-        found = sweep.problems()
-        if not found:
-            return sweep
-    positions = Positions(text)
-    raise deck_error(path, found, lambda finding: positions.find(finding.path, finding.at_key))
-
-
-def _base(path: Path, file: _File, found: list[Finding]) -> tuple[dict[str, Any], str] | None:
-    """The base deck's data; it must be right with the overrides of every run."""
-    try:
-        data, folder = base_data(path)
-    except FileProblem as error:
-        found.append(Finding(("deck",), str(error), file.deck))
-        return None
-    Job(data, folder, file.set).deck()
-    return data, folder
+def _at_end(parameter: Parameter, text: Any) -> Any:
+    """An end of a range as it is tried: a text as written, a number as the runs get it."""
+    if isinstance(text, str) or not parameter.integer:
+        return text
+    return round(text)

@@ -193,6 +193,65 @@ def test_mistakes_are_told_like_a_decks(folder, change, texts):
         assert text in str(caught.value)
 
 
+MISTAKES = """
+deck = "pulse.toml"
+set = ["layer[0].zonse=30", "layer[0].zones=30", "nonsense"]
+plan = "gird"
+seed = -1
+colour = "red"
+quantities = ["peak_suport_stress", "max(right_stres)", "enhancement"]
+[[parameter]]
+key = "left.peek"
+values = [2e6]
+[[parameter]]
+key = "left.duration"
+first = "1 MPa"
+last = "2 ms"
+count = 0
+[[parameter]]
+key = "left.peak"
+column = "enhancement"
+values = ["2 MPa", "3 mm", -4]
+"""
+
+
+def test_all_mistakes_come_at_once(folder):
+    (folder / "pulse.toml").write_text(DECK.replace("modulus =", "modulsu ="))
+    (folder / "bad.toml").write_text(MISTAKES)
+    with pytest.raises(DeckError) as caught:
+        load_sweep(folder / "bad.toml")
+    text = str(caught.value)
+    for line, column, path, words in [
+        (2, 8, "deck", "pulse.toml, material.foam.modulsu: unknown key; did you mean modulus"),
+        (2, 8, "deck", "pulse.toml, material.foam.modulus: is missing"),
+        (3, 8, "set[0]", "layer[0].zonse: unknown key; did you mean zones?; allowed: material, thickness, zones, velocity"),
+        (3, 50, "set[2]", "'nonsense'"),
+        (4, 8, "plan", "did you mean grid"),
+        (5, 8, "seed", "-1 is out of range; allowed: an integer at least 0"),
+        (6, 1, "colour", "unknown key"),
+        (7, 15, "quantities[0]", "did you mean peak_support_stress"),
+        (7, 37, "quantities[1]", "did you mean right_stress"),
+        (10, 11, "parameter[0].values[0]", "left.peek: unknown key; did you mean peak"),
+        (13, 9, "parameter[1].first", "'1 MPa' is a pressure, not a time"),
+        (15, 9, "parameter[1].count", "0 is out of range"),
+        (16, 1, "parameter[2]", "two columns would be called enhancement"),
+        (19, 20, "parameter[2].values[1]", "'3 mm' is a length"),
+        (19, 28, "parameter[2].values[2]", "-4 is out of range"),
+    ]:
+        found = [row for row in text.split("\n") if f"line {line}, column {column}: {path}: " in row and words in row]
+        assert len(found) == 1, (line, column, path, words, text)
+    assert "15 problems" in text
+
+
+def test_a_deck_is_no_sweep_and_a_sweep_no_deck(folder, capsys):
+    assert main(["sweep", str(folder / "pulse.toml")]) == 2
+    assert "is a deck, not a sweep: hydro1d run takes it" in capsys.readouterr().err
+    assert main(["check", str(folder / "sweep.toml")]) == 2
+    assert "is a sweep, not a deck; hydro1d sweep takes it" in capsys.readouterr().err
+    assert main(["sweep", str(folder / "none.toml")]) == 4
+    assert "the sweep '" in capsys.readouterr().err
+
+
 def test_no_quantity_is_evaluated():
     for text in ("1+1", "max()", "max(max(x))", "exit()", "front_arrival(x)"):
         with pytest.raises(ValueError, match=r"."):
@@ -203,13 +262,23 @@ def test_command_line(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     assert main(["sweep", "sweep.toml"]) == 0
     out = capsys.readouterr()
-    assert "6 runs, 2 failed" in out.out
+    assert "6 runs, 2 failed\n  run 4, left.peak = 9e+06, duration = 0.001: the zone is inverted" in out.out
+    assert "\n  run 5, left.peak = 9e+06, duration = 0.002: " in out.out
     assert out.err == ""
     assert (folder / "sweep.csv").read_text().startswith("run,left.peak,duration,peak_support_stress")
     assert not (folder / "sweep.journal").exists()
     (folder / "sweep.csv").write_text("mine")
     assert main(["sweep", "sweep.toml"]) == 4
     assert (folder / "sweep.csv").read_text() == "mine"
+
+
+def test_a_sweep_of_which_nothing_is_left_says_so_to_scripts(folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    (folder / "sweep.toml").write_text(SWEEP.replace('"2 MPa", 3e6, "9 MPa"', '"9 MPa", "10 MPa", "11 MPa", "12 MPa"'))
+    assert main(["sweep", "sweep.toml"]) == 3
+    out = capsys.readouterr().out
+    assert "8 runs, 8 failed" in out and "… and 3 more" in out and out.count("the zone is inverted") == 5
+    assert list(read_table("sweep.h5")["status"]) == ["failed"] * 8
 
 
 def test_energy_shares_add_up(folder):
