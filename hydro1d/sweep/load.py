@@ -79,7 +79,7 @@ def _validated(cls: type[_Part], values: dict[str, Any], path: Location, found: 
 def _stand_in(data: Mapping[str, Any], wrong: set[str | int]) -> _File:
     """The file without the keys that are wrong, so that the others are checked all the same."""
     right = {key: value for key, value in data.items() if key in _File.model_fields and key not in wrong}
-    lists = {key: tuple(right[key]) for key in ("set", "quantities") if key in right}
+    lists: dict[str, Any] = {key: tuple(right[key]) for key in ("set", "quantities") if key in right}
     values: dict[str, Any] = {"deck": "", "quantities": (), **right, **lists}
     return _File.model_construct(**values)
 
