@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydro1d.column import Column, build_column
 from hydro1d.deck import Deck, load_deck
-from hydro1d.errors import BreakdownError, Interrupted
+from hydro1d.errors import BreakdownError, FileProblem, Interrupted
 from hydro1d.interrupt import interruptible
 from hydro1d.kernels.build import fingerprint
 from hydro1d.kernels.march import LIMITING_LAYER
+from hydro1d.kernels.program import Program
 from hydro1d.laws.check import check_law
-from hydro1d.solver import CheckpointPlan, Outcome, solve
+from hydro1d.solver import CheckpointPlan, Outcome, initial_state, solve
 from hydro1d.state import State
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def run(
 
     state, checkpoint = None, None
     if restart is not None:
-        checkpoint, state = _read_restart(deck, Path(restart), force)
+        checkpoint, state = _read_restart(deck, column, Path(restart), force)
     arguments = (Path(output), Layout.of(column), deck.text, deck.resolved(), _attributes(deck))
     sink = Hdf5Sink.resume(checkpoint, *arguments) if checkpoint is not None else Hdf5Sink(*arguments)
     with sink, interruptible() as asked:
@@ -118,13 +119,26 @@ def _closing(column: Column, outcome: Outcome) -> dict[str, Any]:
     return {"limiting_layer": column.layer_name[layer], "message": outcome.message}
 
 
-def _read_restart(deck: Deck, path: Path, force: bool) -> tuple[Any, State]:
+def _read_restart(deck: Deck, column: Column, path: Path, force: bool) -> tuple[Any, State]:
     from hydro1d.store import read_checkpoint, verify_checkpoint
 
     checkpoint = read_checkpoint(path)
     hashes = {layer.material: fingerprint(type(layer.law)) for layer in deck.layers}
     verify_checkpoint(checkpoint, deck.resolved(), hashes, force)
-    return checkpoint, State.from_arrays(checkpoint.arrays)
+    return checkpoint, _state_of(column, checkpoint.arrays, path)
+
+
+def _state_of(column: Column, arrays: Mapping[str, Any], path: Path) -> State:
+    """The checkpoint's state. Compiled code trusts its shapes, so that not even a forced restart may have others."""
+    for name, needed in initial_state(column, Program(column)).arrays().items():
+        shape = arrays[name].shape if name in arrays else None
+        if shape != needed.shape:
+            found = "none" if shape is None else f"numbers {shape}"
+            raise FileProblem(
+                f"cannot carry on from {path}: its state holds {found} as {name}, this deck needs {needed.shape}; "
+                "layers, zones and the variables of laws must be the checkpoint's"
+            )
+    return State.from_arrays(dict(arrays))
 
 
 def _share(column: Column, progress: Callable[[float], None] | None) -> Callable[[State], None] | None:

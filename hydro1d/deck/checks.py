@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hydro1d.deck.messages import Finding
+from hydro1d.deck.messages import MOST_FOUND, Finding
 from hydro1d.errors import Hydro1dError
 from hydro1d.units import shorten
 
@@ -32,17 +33,21 @@ def cross_problems(
     if output is not None and time is not None and not isinstance(output.profiles, int):
         found += [
             Finding(("output", "profiles", index), f"{at:g} s lies outside the run", at, f"0 to {time.end:g} s")
-            for index, at in enumerate(output.profiles)
-            if not 0.0 <= at <= time.end
+            for index, at in _outside(output.profiles, time.end)
         ]
     if output is not None and layers:
         depth = sum(layer.thickness for layer in layers)
         found += [
             Finding(("output", "probes", index), f"{at:g} m lies outside the column", at, f"0 to {depth:g} m")
-            for index, at in enumerate(output.probes)
-            if not 0.0 <= at <= depth
+            for index, at in _outside(output.probes, depth)
         ]
     return found
+
+
+def _outside(values: Sequence[float], most: float) -> list[tuple[int, float]]:
+    """Numbers below 0 or above ``most``, with their indices; no more than anybody corrects at once."""
+    outside = ((index, value) for index, value in enumerate(values) if not 0.0 <= value <= most)
+    return list(itertools.islice(outside, MOST_FOUND))
 
 
 def _check_layers(layers: Sequence[Layer], most_zones: int) -> list[Finding]:

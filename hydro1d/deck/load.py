@@ -59,7 +59,7 @@ def load_deck(
     path: Path | None = None
     text = ""
     if isinstance(source, Mapping):
-        data = copy.deepcopy(dict(source))
+        data = _copied(source)
     else:
         if isinstance(source, str) and "\n" in source:
             text = source
@@ -79,6 +79,13 @@ def load_deck(
         return Deck(**parts, names=builder.names, text=text, path=path)
     except DeckProblems as error:  # checks of the whole, which know no text
         raise _located(path, error.findings, text, origins) from None
+
+
+def _copied(source: Mapping[str, Any]) -> dict[str, Any]:
+    try:
+        return copy.deepcopy(dict(source))
+    except RecursionError:
+        raise DeckError("the deck: tables and lists nested too deeply") from None
 
 
 def _located(path: Path | None, found: list[Finding], text: str, origins: dict[Location, str]) -> DeckError:
@@ -229,10 +236,11 @@ class _Builder:
         if table is None:
             return None
         name = table.get("material")
+        known = list(materials) or ["the NAME of a table [material.NAME]"]
         if "material" not in table:
-            self.found.append(Finding((*path, "material"), "is missing", None, one_of(list(materials))))
+            self.found.append(Finding((*path, "material"), "is missing", None, one_of(known)))
         elif not isinstance(name, str) or name not in materials:
-            self.found.append(unknown_word((*path, "material"), name, "a material of this deck", materials))
+            self.found.append(unknown_word((*path, "material"), name, "a material of this deck", known))
         unknown = [key for key in table if key not in _LAYER_KEYS]
         self.found += [unknown_key((*path, key), _LAYER_KEYS) for key in unknown[:MOST_FOUND]]
         spec, law = materials.get(name, ("", None)) if isinstance(name, str) else ("", None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -131,7 +132,6 @@ def replay(checkpoint: Checkpoint, recorder: Recorder) -> None:
     Probes may have been added since: what is not known of them is NaN. Raises FileProblem if zones or quantities are
     others than the recorder's.
     """
-    source = checkpoint.source
     for table in (recorder.instants, recorder.nodes, recorder.zones, recorder.rows):
         paths = [field.path for field in table.fields]
         for values in _rows(checkpoint, paths, table.rows):
@@ -139,8 +139,19 @@ def replay(checkpoint: Checkpoint, recorder: Recorder) -> None:
                 raise FileProblem(f"cannot carry on from {checkpoint.path}: it has another number of zones")
             table.append(values)
             recorder.relieve()
-    if not recorder.probes.fields:
-        return
+    if not recorder.instants.total == recorder.nodes.total == recorder.zones.total:
+        raise _ragged(checkpoint)
+    if recorder.probes.fields:
+        _replay_probes(checkpoint, recorder)
+
+
+def _ragged(checkpoint: Checkpoint) -> FileProblem:
+    return FileProblem(f"cannot carry on from {checkpoint.path}: its records differ in length")
+
+
+def _replay_probes(checkpoint: Checkpoint, recorder: Recorder) -> None:
+    """What the probes recorded; a probe that the checkpoint does not have gets NaN."""
+    source = checkpoint.source
     known = source.array("probes/probe") if "probes/probe" in source.names else np.empty(0)
     wanted = recorder.layout.probe_coordinate
     columns = [(new, int(np.flatnonzero(known == x)[0])) for new, x in enumerate(wanted) if x in known]
@@ -153,6 +164,8 @@ def replay(checkpoint: Checkpoint, recorder: Recorder) -> None:
         recorder.probe_times.append(times[None, :])
         recorder.probes.append(values)
         recorder.relieve()
+    if recorder.probes.total != recorder.rows.total:
+        raise _ragged(checkpoint)
 
 
 def _lists(checkpoint: Checkpoint, paths: list[str], step: int) -> Iterator[list[np.ndarray]]:
@@ -160,12 +173,13 @@ def _lists(checkpoint: Checkpoint, paths: list[str], step: int) -> Iterator[list
     missing = [path for path in paths if path not in checkpoint.source.names]
     if missing:
         raise FileProblem(f"cannot carry on from {checkpoint.path}: it holds no {', '.join(missing)}")
-    yield from (list(arrays) for arrays in zip(*(checkpoint.source.rows(path, step) for path in paths), strict=True))
+    every = (checkpoint.source.rows(path, step) for path in paths)
+    for arrays in zip_longest(*every, fillvalue=np.empty(0)):
+        if any(len(array) != len(arrays[0]) for array in arrays):
+            raise _ragged(checkpoint)
+        yield list(arrays)
 
 
 def _rows(checkpoint: Checkpoint, paths: list[str], step: int) -> Iterator[np.ndarray]:
     """The same as arrays (dataset, rows, …)."""
-    for arrays in _lists(checkpoint, paths, step):
-        if any(array.shape != arrays[0].shape for array in arrays):
-            raise FileProblem(f"cannot carry on from {checkpoint.path}: its records differ in length")
-        yield np.stack(arrays)
+    yield from (np.stack(arrays) for arrays in _lists(checkpoint, paths, step))

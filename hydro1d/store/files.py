@@ -35,7 +35,7 @@ def explained(action: str, path: os.PathLike[str] | str) -> Iterator[None]:
         yield
     except FileProblem:
         raise
-    except (OSError, RuntimeError, ValueError, KeyError, TypeError, MemoryError) as error:
+    except (OSError, RuntimeError, ValueError, LookupError, TypeError, MemoryError) as error:
         raise FileProblem(f"cannot {action} {os.fspath(path)}: {_reason(error, action, Path(path))}") from error
 
 

@@ -81,7 +81,8 @@ class Hdf5Sink(Recorder):
         """A sink that starts with everything that was recorded up to `checkpoint`."""
         sink = cls(path, layout, deck_text, resolved, attributes, **options)
         try:
-            replay(checkpoint, sink)
+            with files.explained("carry on from", checkpoint.path):
+                replay(checkpoint, sink)
         except BaseException:
             sink.abort()
             raise

@@ -2,11 +2,14 @@
 
 import math
 import re
+import tomllib
 
 import pytest
+from pydantic import ValidationError
 from sample_decks import BOUNDARIES, LAWS, MAIN, PULSES, data
 
-from hydro1d.deck import load_deck
+from hydro1d.deck import Layer, load_deck
+from hydro1d.deck.positions import Positions
 from hydro1d.errors import DeckError
 
 
@@ -349,3 +352,82 @@ def test_a_file_that_no_deck_names_is_not_run(tmp_path, monkeypatch):
     (tmp_path / "epph.py").write_text("raise SystemExit(9)")
     (tmp_path / "sitecustomize.py").write_text("raise SystemExit(9)")
     load_deck(MAIN)
+
+
+# --- what rarely happens -------------------------------------------------------------------------------------------
+
+
+def test_data_nested_too_deeply():
+    value: list = []
+    for _ in range(5000):
+        value = [value]
+    with pytest.raises(DeckError, match="nested too deeply"):
+        load_deck(data(output=value))
+
+
+def test_a_text_that_the_scanner_of_places_gives_up_on_keeps_the_places_found_before():
+    places = Positions("first = 1\ndeep = " + "[" * 3000 + "]" * 3000 + "\nlast = 2\n")
+    assert places.find(("first",)) == (1, 9)
+    assert places.find(("deep",), of_key=True) == (2, 1)
+    assert places.find(("last",)) is None
+
+
+def test_a_result_is_no_deck(tmp_path):
+    (tmp_path / "run.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    with pytest.raises(DeckError, match=r"is a result \(HDF5\), not a deck"):
+        load_deck(tmp_path / "run.h5")
+
+
+def test_a_syntax_error_without_a_place(monkeypatch):
+    def fail(_):
+        raise tomllib.TOMLDecodeError("something is odd")
+
+    monkeypatch.setattr(tomllib, "loads", fail)
+    with pytest.raises(DeckError, match="not valid TOML\n  TOML: something is odd"):
+        load_deck("a = 1\n")
+
+
+def test_an_end_that_is_wrong_itself_is_not_judged_with_the_layers():
+    found = problems(data(left={"type": "striker", "mass": -1.0, "velocity": -50.0}))
+    assert [problem.path for problem in found] == ["left.mass"]
+
+
+def test_a_load_that_flies_away_is_named_with_its_end():
+    (found,) = problems(data(right={"type": "striker", "mass": 1.0, "velocity": 50.0}))
+    assert found.path == "right" and "does not close" in found.message
+
+
+def test_a_boundary_s_own_code_may_raise_anything(tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "from hydro1d.boundaries.base import Boundary\n"
+        "class Mine(Boundary):\n    def start(self, *_):\n        raise ZeroDivisionError\n"
+    )
+    (found,) = problems(data(left={"type": "mine.py:Mine"}), folder=tmp_path)
+    assert (found.path, found.message) == ("left", "raised ZeroDivisionError: no message")
+
+
+def test_many_profiles_outside_the_run_are_cut():
+    found = problems(data(output={"profiles": [float(time) for time in range(1, 3000)]}))
+    assert 100 < len(found) < 1000 and all("outside the run" in problem.message for problem in found)
+
+
+def test_a_layer_of_a_deck_without_materials():
+    found = problems(data(material={}))
+    assert "the NAME of a table [material.NAME]" in str(next(one for one in found if one.path == "layer[0].material"))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [("1 " + "m" * 99, "is too long for a number with a unit"), ("1 *", "not"), ("1 m/", "is not a unit"), ("5 %", "")],
+)
+def test_units_at_the_edge(text, words):
+    if words:
+        with pytest.raises(DeckError, match=words):
+            load_deck(data(left={"type": "piston", "velocity": text}))
+    else:
+        assert load_deck(data(time={"end": 1e-2, "cfl": text})).time.cfl == pytest.approx(0.05)
+
+
+def test_a_component_that_is_given_no_table():
+    with pytest.raises(ValidationError):
+        Layer.model_validate(3)

@@ -4,6 +4,7 @@ import random
 import subprocess
 import sys
 import time
+import zlib
 
 import h5py
 import numpy as np
@@ -180,3 +181,39 @@ def test_other_physics(whole, tmp_path):
         hydro1d.run(DECK.replace("60 m/s", "61 m/s"), tmp_path / "b.h5", restart=whole[1][3])
     assert not list(tmp_path.iterdir())
     hydro1d.run(DECK.replace("60 m/s", "61 m/s"), tmp_path / "b.h5", restart=whole[1][3], force=True)
+
+
+SPLIT = DECK.replace("zones = 30", "zones = 20").replace(
+    "[[layer]]", '[[layer]]\nmaterial = "foam"\nthickness = "0.25 m"\nzones = 10\n[[layer]]', 1
+)
+
+
+@pytest.mark.parametrize(
+    ("deck", "words"),
+    [
+        (SPLIT, r"holds numbers \(2, \d+\) as numbers, this deck needs \(3, \d+\)"),
+        (DECK.replace("zones = 30", "zones = 31"), r"as velocity, this deck needs \(74,\)"),
+    ],
+)
+def test_not_even_force_makes_a_state_fit_other_layers(whole, tmp_path, deck, words):
+    """Compiled code takes the shapes of the state's arrays for granted."""
+    with pytest.raises(FileProblem, match="layer"):
+        hydro1d.run(deck, tmp_path / "b.h5", restart=whole[1][3])
+    with pytest.raises(FileProblem, match=words):
+        hydro1d.run(deck, tmp_path / "b.h5", restart=whole[1][3], force=True)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("change", ["missing", "longer"])
+def test_a_state_that_is_not_whole(whole, tmp_path, change):
+    path = tmp_path / "c.h5"
+    path.write_bytes(whole[1][3].read_bytes())
+    with h5py.File(path, "r+") as file:
+        values = file["state/force"][()]
+        del file["state/force"]
+        if change == "longer":
+            values = np.append(values, 0.0)
+            file["state/force"] = values
+            file["state/force"].attrs["crc32"] = np.uint32(zlib.crc32(values.tobytes()))
+    with pytest.raises(FileProblem, match=r"holds (none|numbers \(71,\)) as force, this deck needs \(70,\)"):
+        hydro1d.run(DECK, tmp_path / "b.h5", restart=path)
