@@ -15,7 +15,6 @@ import pytest
 from hydro1d import cli
 from hydro1d.cli import _common, main
 
-
 CRITICAL = ["--key", "a", "--from", "1", "--to", "2", "--outcome", "enhanced"]
 
 
@@ -34,7 +33,7 @@ class Stream(io.StringIO):
     ("error", "code"),
     [(BrokenPipeError(), 0), (OSError(28, "No space left on device"), 4), (ValueError("closed"), 0)],
 )
-def test_standard_output_that_cannot_be_flushed(monkeypatch, capsys, error, code):
+def test_standard_output_that_cannot_be_flushed(capsys, monkeypatch, error, code):
     monkeypatch.setattr(sys, "stdout", Stream(error))
     assert main(["--version"]) == code
     assert ("standard output: No space left on device" in capsys.readouterr().err) == (code == 4)
@@ -68,7 +67,7 @@ def test_warnings_are_for_those_who_ask(monkeypatch, wanted, shown):
     def warn(_):
         warnings.warn("a remark to programmers", DeprecationWarning, stacklevel=1)
 
-    module = SimpleNamespace(HELP="", add_arguments=lambda parser: None, run=warn)
+    module = SimpleNamespace(add_arguments=lambda parser: None, run=warn)
     monkeypatch.setattr(cli, "_module", lambda name: module)
     monkeypatch.setattr(sys, "warnoptions", wanted)
     monkeypatch.setattr(warnings, "showwarning", lambda *what, **_: seen.append(what))
@@ -90,11 +89,13 @@ def test_sigterm_ends_a_command_like_ctrl_c(monkeypatch, capsys):
     import signal
 
     def killed(_):
+        assert signal.getsignal(signal.SIGTERM) not in (before, signal.SIG_DFL), "not our own process, please"
         os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr(cli, "_dispatch", killed)
     before = signal.getsignal(signal.SIGTERM)
-    assert main(["check", "x"]) == 130
+    module = SimpleNamespace(add_arguments=lambda parser: None, run=killed)
+    monkeypatch.setattr(cli, "_module", lambda name: module)
+    assert main(["schema"]) == 130
     assert signal.getsignal(signal.SIGTERM) == before
 
 
