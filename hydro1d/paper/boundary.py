@@ -13,25 +13,40 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from hydro1d.errors import DeckError
+from hydro1d.paper import foam
+from hydro1d.paper.workshop import plain
 from hydro1d.sweep import Column, Flip, Job, NoFlip, Table, evaluate, find_flip
 from hydro1d.sweep.base import threads_here
 from hydro1d.sweep.job import override
 
 CRITERIA = ("fully_crushed", "enhanced")
-PLATEAU, DENSITY, LENGTH, ELASTIC_TIME = 0.8e6, 51.6, 1.0, 1.0 / math.sqrt(22e6 / 51.6)
-LATER = 1.25  # end of a run over the time by which all momentum is gone
+Ending = Callable[[float, float], float]  # pressure, duration -> end of the run, s
+
+
+def at_rest(pressure: float, duration: float) -> float:
+    """A quarter later than the time by which all momentum is gone."""
+    return 1.25 * (duration * pressure / foam.PLATEAU + 1.0 / foam.RATE)
+
+
+def twice_as_long(pressure: float, duration: float) -> float:
+    """Twice `at_rest`."""
+    return 2.0 * at_rest(pressure, duration)
+
+
+def with_the_pulse(pressure: float, duration: float) -> float:
+    """Nothing counts that happens when the pulse is over."""
+    return duration
 
 
 @dataclass(frozen=True)
 class Curve:
-    """One boundary: its name, the deck's data with overrides, and the bracket as multiples of a first "
-    "guess of T."""
+    """One boundary: name, a deck's data with overrides, bracket as multiples of a first guess of T, end of its runs."""
 
     name: str
     data: Mapping[str, Any]
     overrides: tuple[str, ...] = ()
     bracket: tuple[float, float] = (0.5, 4.0)
-    later: float = LATER
+    end: Ending = at_rest
     criteria: tuple[str, ...] = CRITERIA
 
 
@@ -48,11 +63,12 @@ class Point:
 
 def critical_durations(curve: Curve, pressure: float, guess: float, tolerance: float, scan: int = 5) -> Point:
     """Both critical durations at one pressure; a run is done once for both."""
-    point, known = Point(pressure), {}  # type: Point, dict[float, dict[str, Any]]
+    point = Point(pressure)
+    known: dict[float, dict[str, Any]] = {}
 
     def row_at(duration: float) -> dict[str, Any]:
         if duration not in known:
-            known[duration] = evaluate(_job(curve, pressure, duration))
+            known[duration] = evaluate_at(curve, pressure, duration, (), curve.criteria)
         return known[duration]
 
     for criterion in curve.criteria:
@@ -75,10 +91,13 @@ def critical_durations(curve: Curve, pressure: float, guess: float, tolerance: f
     return point
 
 
-def _job(curve: Curve, pressure: float, duration: float) -> Job:
-    end = curve.later * (duration * pressure / PLATEAU + ELASTIC_TIME)
-    texts = (override("left.peak", pressure), override("left.duration", duration), override("time.end", end))
-    return Job(curve.data, ".", (*curve.overrides, *texts), (), curve.criteria, stop_early=True)
+def evaluate_at(
+    curve: Curve, pressure: float, duration: float, quantities: tuple[str, ...], outcomes: tuple[str, ...]
+) -> dict[str, Any]:
+    """One run of a curve: its row of quantities and outcomes. It ends early when every outcome has come to yes."""
+    end = override("time.end", curve.end(pressure, duration))
+    texts = (override("left.peak", pressure), override("left.duration", duration), end)
+    return evaluate(Job(curve.data, ".", (*curve.overrides, *texts), quantities, outcomes, stop_early=True))
 
 
 def trace_curves(
@@ -105,6 +124,6 @@ def boundary_table(traced: Mapping[str, Sequence[Point]], pressures: Sequence[fl
     for name, points in traced.items():
         for criterion in points[0].durations:
             values = [point.durations[criterion] for point in points]
-            text = f"critical duration, {name}, {criterion.replace('_', ' ')}"
+            text = f"critical duration, {name}, {plain(criterion)}"
             columns.append(Column(f"{name} {criterion}", "s", text, values))
     return Table(columns)

@@ -1,5 +1,8 @@
-"""A chain of equal masses, on its own: against it the solver's chain, whose mass at the loaded end "
-"is half as heavy."""
+"""A chain of equal masses by an independent integrator.
+
+The solver's own chain has half a mass at the loaded end. Springs are known by their room, 1 − ε: undamped masses
+collide down to a room of 1e-10, which a strain near 1 could not tell.
+"""
 
 from __future__ import annotations
 
@@ -11,36 +14,39 @@ from scipy.integrate import solve_ivp
 
 from hydro1d.paper import foam
 
+_FULL = 1.0 - foam.LOCKING  # room at which hardening begins
+
 
 class Trajectories(NamedTuple):
-    """Times (s), positions (times, masses) in m, largest strain of each spring, largest force on the support (Pa)."""
+    """Times (s), positions (times, masses + 1) in m, largest force on the support (Pa), largest error of energy."""
 
     time: np.ndarray
     position: np.ndarray
-    largest_strain: np.ndarray
     support: float
     energy_error: float
 
 
-def spring(strain: np.ndarray, beta: float, gamma: float) -> np.ndarray:
-    """Stress of Eq. 38, elastic in tension, Pa."""
-    over = np.maximum(strain - foam.LOCKING, 0.0)
-    start = (1.0 - gamma) * 0.5 * math.pi
-    angle = start + gamma * 0.5 * math.pi * over / (1.0 - foam.LOCKING)
-    rise = np.where(over < 1.0 - foam.LOCKING, np.tan(angle), 1e30) - math.tan(
-        start
-    )  # a trial step beyond ε = 1 is undone
-    return np.minimum(foam.MODULUS * strain, foam.PLATEAU) + foam.PLATEAU * beta * rise
+def spring(room: np.ndarray, beta: float, gamma: float) -> np.ndarray:
+    """Stress of Eq. 38 at this room, elastic in tension, Pa."""
+    rate, start = _angles(gamma)
+    inside = np.clip(room, 1e-300, _FULL)  # a trial step beyond ε = 1 is undone
+    rise = 1.0 / np.tan(rate * inside) - math.tan(start)
+    return np.minimum(foam.MODULUS * (1.0 - room), foam.PLATEAU) + foam.PLATEAU * beta * rise
 
 
-def potential(strain: np.ndarray, beta: float, gamma: float) -> np.ndarray:
-    """Energy stored in the springs at that strain, J/m³: the integral of `spring`, in closed form."""
-    turn = foam.PLATEAU / foam.MODULUS
+def potential(room: np.ndarray, beta: float, gamma: float) -> np.ndarray:
+    """Energy stored in the springs at this room, J/m³: the integral of `spring`, in closed form."""
+    strain, turn = 1.0 - room, foam.PLATEAU / foam.MODULUS
     low = np.where(strain < turn, 0.5 * foam.MODULUS * strain**2, foam.PLATEAU * (strain - 0.5 * turn))
-    over = np.maximum(strain - foam.LOCKING, 0.0)
-    start, rate = (1.0 - gamma) * 0.5 * math.pi, gamma * 0.5 * math.pi / (1.0 - foam.LOCKING)
-    logarithm = -np.log(np.cos(start + rate * over) / math.cos(start)) / rate
-    return low + foam.PLATEAU * beta * (logarithm - math.tan(start) * over)
+    rate, start = _angles(gamma)
+    inside = np.minimum(room, _FULL)
+    logarithm = -np.log(np.sin(rate * inside) / math.cos(start)) / rate
+    return low + foam.PLATEAU * beta * (logarithm - math.tan(start) * (_FULL - inside))
+
+
+def _angles(gamma: float) -> tuple[float, float]:
+    """Angle of Eq. 38 for a room of 1, and the angle where hardening begins."""
+    return gamma * 0.5 * math.pi / _FULL, (1.0 - gamma) * 0.5 * math.pi
 
 
 def equal_masses(count: int, pressure: float, duration: float, end: float, beta: float, gamma: float) -> Trajectories:
@@ -48,26 +54,30 @@ def equal_masses(count: int, pressure: float, duration: float, end: float, beta:
     size, mass = foam.LENGTH / count, foam.DENSITY * foam.LENGTH / count
 
     def rates(t: float, state: np.ndarray, load: float) -> np.ndarray:
-        moved, velocity = state[:count], state[count : 2 * count]
-        strain = -np.diff(np.append(moved, 0.0)) / size
-        stress = spring(strain, beta, gamma)
+        room, velocity = state[:count], state[count : 2 * count]
+        stress = spring(room, beta, gamma)
         force = np.concatenate([[load], stress[:-1]]) - stress
-        return np.concatenate([velocity, force / mass, [load * velocity[0]]])
+        return np.concatenate([np.diff(velocity, append=0.0) / size, force / mass, [load * velocity[0]]])
 
-    start, times, states = np.zeros(2 * count + 1), [np.zeros(1)], [np.zeros((2 * count + 1, 1))]
-    for begin, stop, load in ((0.0, duration, pressure), (duration, end, 0.0)):
-        found = solve_ivp(rates, (begin, stop), start, "DOP853", args=(load,), rtol=1e-11, atol=1e-13)
+    time, state = _integrate(rates, count, ((0.0, duration, pressure), (duration, end, 0.0)))
+    room, velocity, work = state[:count], state[count : 2 * count], state[-1]
+    energy = 0.5 * mass * np.sum(velocity**2, axis=0) + size * np.sum(potential(room, beta, gamma), axis=0)
+    worst = float(np.max(np.abs(energy - work)) / np.max(work))
+    support = float(spring(room[-1], beta, gamma).max())
+    from_wall = np.cumsum(np.vstack([np.zeros(len(time)), size * room[::-1]]), axis=0)[::-1]
+    return Trajectories(time, (foam.LENGTH - from_wall).T, support, worst)
+
+
+def _integrate(rates: object, count: int, stages: tuple) -> tuple[np.ndarray, np.ndarray]:
+    """Times and states (rooms, velocities, work done; times) from rest, stage by stage."""
+    state = np.concatenate([np.ones(count), np.zeros(count + 1)])
+    floor = np.concatenate([np.full(count, 1e-18), np.full(count, 1e-9), [1e-6]])  # what counts as nothing
+    times, states = [np.zeros(1)], [state[:, None]]
+    for begin, stop, load in stages:
+        found = solve_ivp(rates, (begin, stop), state, "DOP853", args=(load,), rtol=1e-10, atol=floor)
         if not found.success:
             raise RuntimeError(found.message)
-        start = found.y[:, -1]
+        state = found.y[:, -1]
         times.append(found.t[1:])
         states.append(found.y[:, 1:])
-    time, state = np.concatenate(times), np.concatenate(states, axis=1)
-    moved = np.vstack([state[:count], np.zeros(len(time))])
-    strain = -np.diff(moved, axis=0) / size
-    energy = 0.5 * mass * np.sum(state[count : 2 * count] ** 2, axis=0) + size * potential(strain, beta, gamma).sum(
-        axis=0
-    )
-    worst = float(np.max(np.abs(energy - state[-1])) / np.max(state[-1]))
-    position = (np.arange(count + 1)[:, None] * size + moved).T
-    return Trajectories(time, position, strain.max(axis=1), float(spring(strain[-1], beta, gamma).max()), worst)
+    return np.concatenate(times), np.concatenate(states, axis=1)

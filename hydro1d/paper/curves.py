@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import NamedTuple
+
 import numpy as np
 
 from hydro1d import analytic
 from hydro1d.paper import foam
-from hydro1d.paper.workshop import BLUE, GREEN, ORANGE, RED, Workshop, columns, new_figure
+from hydro1d.paper.workshop import BLUE, GREEN, RED, Workshop, columns, new_figure
 
 MEGA = 1e6
 
@@ -14,7 +17,7 @@ MEGA = 1e6
 def figure_1(work: Workshop) -> None:
     """Quasi-static curves."""
     strain = np.concatenate([[0.0], np.linspace(foam.PLATEAU / foam.MODULUS, foam.LOCKING, 30)])
-    over = np.linspace(foam.LOCKING, 0.995, 200)
+    over = np.linspace(foam.LOCKING, 1.0, 200)[:-1]
     ends = np.minimum(over, foam.LINEAR.strain_limit)
     linear = np.concatenate([foam.LINEAR.stress(strain), foam.LINEAR.stress(ends)]) / MEGA
     tangent = np.concatenate([foam.TANGENT.stress(strain), foam.TANGENT.stress(over)]) / MEGA
@@ -34,63 +37,72 @@ def figure_1(work: Workshop) -> None:
     work.number("1", "stress where Eq. 39 ends", "MPa", equations=float(foam.LINEAR.stress(1.0)) / MEGA)
 
 
+class _Relation(NamedTuple):
+    """A hardening curve as Figs. 8 and 9 show it: by Eqs. 35 and 37, and points (runs, 3) of [v], strain, cS."""
+
+    curve: analytic.Curve
+    exact: analytic.Hugoniot
+    points: np.ndarray
+    color: str
+    mark: str
+
+
 def figures_8_9(work: Workshop) -> None:
     """Strain and front speed against the velocity jump."""
-    velocities = np.linspace(10.0, 250.0, 49)
+    velocities, pressures = np.linspace(10.0, 250.0, 49), np.linspace(1.0e6, 4.3e6, work.size.steps)
+
+    def relation(curve: analytic.Curve, deck: str, color: str, mark: str) -> _Relation:
+        return _Relation(
+            curve, analytic.compaction_hugoniot(curve, velocities), _measured(work, deck, pressures), color, mark
+        )
+
+    relations = {
+        "Eq. 39": relation(foam.LINEAR, "step.toml", RED, "o"),
+        "Eq. 38": relation(foam.TANGENT, "step_tangent.toml", GREEN, "s"),
+    }
+    _draw(work, "fig08", "strain behind the front", "strain", 1, velocities, relations)
+    _draw(work, "fig09", "cS (m/s)", "shock_speed", 2, velocities, relations)
+    _fit_numbers(work, velocities)
+    for key, (curve, _, points, _, _) in relations.items():
+        velocity, strain, speed = points[-1]
+        theory, note = analytic.compaction_hugoniot(curve, velocity), f"at [v] = {velocity:.1f} m/s"
+        work.number("8", f"strain behind the front, {key}", "1", equations=theory.strain, solver=strain, note=note)
+        work.number("9", f"cS, {key}", "m/s", equations=theory.shock_speed, solver=speed, note=note)
+
+
+def _draw(
+    work: Workshop,
+    name: str,
+    label: str,
+    quantity: str,
+    column: int,
+    velocities: np.ndarray,
+    relations: Mapping[str, _Relation],
+) -> None:
+    figure, ax = new_figure()
+    data: dict[str, np.ndarray] = {"v__m_s": velocities}
+    for key, (_, exact, points, color, mark) in relations.items():
+        ax.plot(velocities, getattr(exact, quantity), color=color, lw=1.6, label=f"{key}, equations")
+        ax.plot(points[:, 0], points[:, column], mark, color=color, mfc="none", ms=6, label=f"{key}, solver")
+        data |= {f"{key} {quantity}": getattr(exact, quantity), f"solver {key} v__m_s": points[:, 0]}
+        data[f"solver {key} {quantity}"] = points[:, column]
+    ax.set(xlabel="[v] (m/s)", ylabel=label, xlim=(0, 260), ylim=(0.4, 1.0) if name == "fig08" else (0, 300))
+    ax.legend(frameon=False)
+    caption = f"Lines: Eqs. 35 and 37 with Eq. 39, and with Eq. 38 for β = {foam.BETA}, γ = {foam.GAMMA}."
+    title = f"Fig. {int(name[3:])}: {label.split(' (')[0]} against [v]"
+    work.picture(name, title, caption, figure, columns(**data))
+
+
+def _fit_numbers(work: Workshop, velocities: np.ndarray) -> None:
     beta, gamma, residual = foam.fit_tangent(velocities)
-    used = foam.misfit(velocities, foam.BETA, foam.GAMMA)
-    exact = {
-        "Eq. 39": analytic.compaction_hugoniot(foam.LINEAR, velocities),
-        "Eq. 38": analytic.compaction_hugoniot(foam.TANGENT, velocities),
-    }
-    points = {
-        "Eq. 39": _measured(work, "step.toml", np.linspace(1.0e6, 4.3e6, work.size.steps)),
-        "Eq. 38": _measured(work, "step_tangent.toml", np.linspace(1.0e6, 4.3e6, work.size.steps)),
-    }
-    for name, label, quantity, column in (
-        ("fig08", "strain behind the front", "strain", 1),
-        ("fig09", "cS (m/s)", "shock_speed", 2),
-    ):
-        figure, ax = new_figure()
-        for (key, hugoniot), color, mark in zip(exact.items(), (RED, GREEN), "os", strict=True):
-            ax.plot(velocities, getattr(hugoniot, quantity), color=color, lw=1.6, label=key)
-            ax.plot(
-                points[key][:, 0], points[key][:, column], mark, color=color, mfc="none", ms=6, label=f"{key}, solver"
-            )
-        ax.set(xlabel="[v] (m/s)", ylabel=label, xlim=(0, 260))
-        if name == "fig08":
-            ax.set_ylim(0.4, 1.0)
-        ax.legend(frameon=False)
-        data = columns(
-            v__m_s=velocities,
-            **{f"eq39_{quantity}": getattr(exact["Eq. 39"], quantity)},
-            **{f"eq38_{quantity}": getattr(exact["Eq. 38"], quantity)},
-            **{
-                f"solver_{key[-2:]}_{what}": points[key][:, k]
-                for key in points
-                for k, what in ((0, "v__m_s"), (column, quantity))
-            },
-        )
-        caption = (
-            f"Lines: Eqs. 35 and 37. Fit of Eq. 38 to Eq. 39 over 10–250 m/s: β = {beta:.3f}, γ = {gamma:.3f}, "
-            f"rms strain {residual:.3f}."
-        )
-        work.picture(name, f"Fig. {int(name[3:])}: {label} against [v]", caption, figure, data)
-    work.number("8", "beta, fit of Eq. 38 to Eq. 39", "1", equations=beta, note="not printed in the paper")
-    work.number("8", "gamma, fit of Eq. 38 to Eq. 39", "1", equations=gamma, note="not printed in the paper")
-    work.number(
-        "8",
-        "rms strain difference of the fit",
-        "1",
-        equations=residual,
-        note=f"{used:.4f} with the beta = {foam.BETA}, gamma = {foam.GAMMA} used here: the minimum is flat",
+    used, note = (
+        foam.misfit(velocities, foam.BETA, foam.GAMMA),
+        "not printed in the paper; least squares over 10-250 m/s",
     )
-    for key, curve in (("Eq. 39", foam.LINEAR), ("Eq. 38", foam.TANGENT)):
-        row = points[key][-1]
-        theory = analytic.compaction_hugoniot(curve, row[0])
-        note = f"at [v] = {row[0]:.1f} m/s"
-        work.number("8", f"strain behind the front, {key}", "1", equations=theory.strain, solver=row[1], note=note)
-        work.number("9", f"cS, {key}", "m/s", equations=theory.shock_speed, solver=row[2], note=note)
+    work.number("8", "β, fit of Eq. 38 to Eq. 39", "1", equations=beta, note=f"{note}; used here: {foam.BETA}")
+    work.number("8", "γ, fit of Eq. 38 to Eq. 39", "1", equations=gamma, note=f"{note}; used here: {foam.GAMMA}")
+    note = f"{used:.4f} with the β and γ used here: the minimum is flat"
+    work.number("8", "rms strain difference of the fit", "1", equations=residual, note=note)
 
 
 def _measured(work: Workshop, deck: str, pressures: np.ndarray) -> np.ndarray:
@@ -110,6 +122,3 @@ def _measured(work: Workshop, deck: str, pressures: np.ndarray) -> np.ndarray:
         carried = np.median(velocity[(node > front[-1] + 0.05) & (node < front[-1] + 0.15)])
         rows.append((moving - carried, strain, (1.0 - np.median(result["strain"][-1][ahead])) * speed))
     return np.array(rows)
-
-
-__all__ = ["BLUE", "ORANGE", "figure_1", "figures_8_9"]

@@ -24,6 +24,12 @@ def eq30(pressure: float) -> float:
     return float(critical_duration(RIGID, pressure, LENGTH))
 
 
+def eq30_line(lowest: float, highest: float) -> tuple[np.ndarray, np.ndarray]:
+    """Eq. 30 drawn smoothly: durations (s) and pressures (Pa)."""
+    pressures = np.linspace(lowest, highest, 200)
+    return np.array([eq30(float(p)) for p in pressures]), pressures
+
+
 def fit_tangent(velocities: np.ndarray) -> tuple[float, float, float]:
     """β, γ of Eq. 38 that fit the strains of Eq. 39 at these [v] (m/s), and the rms difference of strain."""
     found = least_squares(lambda x: _difference(velocities, *x), [1.0, 0.5], bounds=([0.05, 0.05], [10.0, 0.99]))

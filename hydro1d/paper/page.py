@@ -6,56 +6,56 @@ import base64
 import html
 import math
 
-from hydro1d.paper.workshop import Number, Workshop
+from hydro1d import __version__
+from hydro1d.paper.workshop import Number, Picture, Workshop
 
 _STYLE = """
 body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}
 h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2.2em;border-top:1px solid #ddd;padding-top:.8em}
+nav a{display:inline-block;margin-right:1.2em}
 img{max-width:100%}table{border-collapse:collapse;font-size:13px;margin:.6em 0;width:100%}
 th,td{border-bottom:1px solid #e4e4e4;padding:.25em .6em;text-align:left;vertical-align:top}
 td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}th.n{text-align:right}
 .note{color:#666}p.caption{color:#444}
 """
-_OF_FIGURE = {
-    "fig01": "1",
-    "fig03": "3",
-    "fig05": "5",
-    "fig06": "6",
-    "fig08": "8",
-    "fig09": "9",
-    "fig11a": "11a",
-    "fig11b": "11b",
-    "fig12": "12",
-    "new1_support_stress": "new 1",
-    "new2_peak_map": "new 2",
-    "new3_energy": "new 3",
-    "new4_studies": "new 4",
-}
+_SOURCE = (
+    "<p>Harrigan, Reid &amp; Seyed Yaghoubi, Int. J. Impact Engineering 37 (2010) 918–927, "
+    "<a href='https://doi.org/10.1016/j.ijimpeng.2009.03.011'>doi:10.1016/j.ijimpeng.2009.03.011</a>. Each table puts "
+    "side by side what the paper prints, what its equations give, and what the solver gives; an empty cell is a number "
+    "that a column does not have. The difference is the solver's from the equations, or else the equations' from the "
+    "paper. T over Eq. 30 is a critical duration divided by that of Eq. 30 at the same pressure.</p>"
+)
 
 
 def write_page(work: Workshop, seconds: float) -> None:
     """Write index.html into the workshop's folder."""
+    short = "" if work.size.studies else "The quick form: fewer points, coarser grids, no studies. "
     parts = [
         "<!doctype html><html lang='en'><meta charset='utf-8'>",
+        "<meta name='viewport' content='width=device-width'>",
         "<title>The correct analysis of shocks, reproduced</title>",
         f"<style>{_STYLE}</style>",
         "<h1>The correct analysis of shocks in a cellular material, reproduced</h1>",
-        "<p>Harrigan, Reid &amp; Seyed Yaghoubi, Int. J. Impact Engineering 37 (2010) 918–927, "
-        "<a href='https://doi.org/10.1016/j.ijimpeng.2009.03.011'>doi:10.1016/j.ijimpeng.2009.03.011</a>. "
-        "Each table puts side by side what the paper prints, what its equations give, and what the solver "
-        "gives; the "
-        "difference is the solver's from the equations, or else the equations' from the paper.</p>",
-        f"<p class='note'>Made in {seconds:.0f} s. The data of every figure lie beside it, as CSV and HDF5.</p>",
+        _SOURCE,
+        f"<p class='note'>{short}Made in {seconds:.0f} s by hydro1d {__version__}. All numbers: "
+        "<a href='numbers.csv'>numbers.csv</a>; what the figures were drawn from: the folder data.</p>",
+        "<nav>" + " ".join(f"<a href='#{p.name}'>{html.escape(p.title)}</a>" for p in work.pictures) + "</nav>",
     ]
     for picture in work.pictures:
-        image = base64.b64encode((work.folder / f"{picture.name}.png").read_bytes()).decode()
-        parts += [
-            f"<h2 id='{picture.name}'>{html.escape(picture.title)}</h2>",
-            f"<img alt='{html.escape(picture.title)}' src='data:image/png;base64,{image}'>",
-            f"<p class='caption'>{html.escape(picture.caption)}</p>",
-            _table([item for item in work.numbers if item.figure == _OF_FIGURE.get(picture.name)]),
-        ]
+        parts += _section(work, picture)
     (work.folder / "index.html").write_text("\n".join(parts) + "\n</html>\n", encoding="utf-8")
+
+
+def _section(work: Workshop, picture: Picture) -> list[str]:
+    image = base64.b64encode((work.folder / f"{picture.name}.png").read_bytes()).decode()
+    title, files = html.escape(picture.title), (f"{picture.name}.{kind}" for kind in ("csv", "svg", "png"))
+    return [
+        f"<h2 id='{picture.name}'>{title}</h2>",
+        f"<img alt='{title}' src='data:image/png;base64,{image}'>",
+        f"<p class='caption'>{html.escape(picture.caption)}</p>",
+        "<p class='note'>" + " · ".join(f"<a href='{file}'>{file}</a>" for file in files) + "</p>",
+        _table([item for item in work.numbers if item.figure == picture.figure]),
+    ]
 
 
 def _table(numbers: list[Number]) -> str:

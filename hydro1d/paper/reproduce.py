@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from hydro1d.paper import beyond, boundaries, curves, masses, pulses, strikers
+from hydro1d.paper import beyond, boundaries, curves, extended, masses, pulses, springs, strikers
 from hydro1d.paper.page import write_page
 from hydro1d.paper.studies import studies
 from hydro1d.paper.workshop import QUICK, Size, Workshop
@@ -14,7 +14,8 @@ from hydro1d.paper.workshop import QUICK, Size, Workshop
 PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
     ("1", curves.figure_1),
     ("3", strikers.figure_3),
-    ("5", boundaries.figure_5),
+    ("5", springs.figure_5),
+    ("masses", springs.peaks_of_many_masses),
     ("6", boundaries.figure_6),
     ("8, 9", curves.figures_8_9),
     ("11a", pulses.figure_11a),
@@ -23,6 +24,7 @@ PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
     ("support", beyond.support_histories),
     ("map", beyond.peak_map),
     ("energy", beyond.energy_shares),
+    ("left", extended.energy_left),
     ("studies", studies),
 )
 

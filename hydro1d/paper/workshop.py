@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -21,16 +22,8 @@ from hydro1d.store import Run
 from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
 
-BLUE, RED, GREEN, ORANGE, PURPLE, GREY, BROWN = (
-    "#1f5fa8",
-    "#c0392b",
-    "#2e8b57",
-    "#e08a00",
-    "#7d3c98",
-    "#777777",
-    "#8b5a2b",
-)
-STYLE = {"lw": 1.6}
+BLUE, RED, GREEN, ORANGE = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00"
+PURPLE, GREY, BROWN, GOLD = "#7d3c98", "#777777", "#8b5a2b", "#d9b648"
 
 
 class Number(NamedTuple):
@@ -58,6 +51,12 @@ class Picture(NamedTuple):
     title: str
     caption: str
 
+    @property
+    def figure(self) -> str:
+        """Its number as in numbers.csv: fig11a is 11a, new2_peak_map is new 2."""
+        kind, number = re.fullmatch(r"(fig|new)0*(\d+[ab]?)(?:_\w+)?", self.name).groups()  # type: ignore[union-attr]
+        return number if kind == "fig" else f"new {number}"
+
 
 @dataclass(frozen=True)
 class Size:
@@ -69,6 +68,8 @@ class Size:
     mass_pressures: int = 13
     tolerance: float = 1e-3
     map_points: int = 22
+    strip_points: int = 25
+    energy_pressures: int = 10
     fine_zones: int = 1000
     striker_points: int = 8
     steps: int = 9
@@ -83,7 +84,9 @@ QUICK = Size(
     masses=(10, 20),
     mass_pressures=4,
     tolerance=5e-3,
-    map_points=7,
+    map_points=9,
+    strip_points=9,
+    energy_pressures=4,
     fine_zones=400,
     striker_points=3,
     steps=4,
@@ -128,8 +131,10 @@ class Workshop:
         solver: Any = math.nan,
         note: str = "",
     ) -> None:
-        """Keep a number for numbers.csv."""
-        self.numbers.append(Number(figure, quantity, unit, float(paper), float(equations), float(solver), note))
+        """Keep a number for numbers.csv; one that is known in no column is none."""
+        item = Number(figure, quantity, unit, float(paper), float(equations), float(solver), note)
+        if not all(math.isnan(value) for value in (item.paper, item.equations, item.solver)):
+            self.numbers.append(item)
 
     def picture(self, name: str, title: str, caption: str, figure: Figure, data: Table) -> None:
         """Write NAME.png, NAME.svg and NAME.csv."""
@@ -183,6 +188,11 @@ def columns(**named: Sequence[float] | np.ndarray) -> Table:
         label, _, unit = name.partition("__")
         made.append(Column(f"{label} ({unit.replace('_', ' ')})" if unit else label, unit, label, padded))
     return Table(made)
+
+
+def plain(criterion: str) -> str:
+    """An outcome's name as words."""
+    return criterion.replace("_", " ")
 
 
 def new_figure(width: float = 6.4, height: float = 4.4, **grid: Any) -> tuple[Figure, Any]:

@@ -1,0 +1,137 @@
+"""Fig. 5: the mass-spring boundary in (τd, p), and what the number of masses does to it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+
+from hydro1d.paper import foam
+from hydro1d.paper.boundary import CRITERIA, Curve, boundary_table, evaluate_at, trace_curves
+from hydro1d.paper.workshop import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    RED,
+    Workshop,
+    columns,
+    deck_data,
+    new_figure,
+    plain,
+)
+from hydro1d.sweep import Column, Table
+from hydro1d.sweep.base import threads_here
+
+REVERSIBLE = ("time.cfl=0.05",)
+COARSE = ("time.cfl=0.2",)  # hundreds of masses: a quarter of the cost, critical durations within 2 %
+PLASTIC = ('material.foam.unloading="elastic"',)
+MANY = 200  # masses; from here on a run takes tens of seconds
+COLORS = (BLUE, GREEN, PURPLE, ORANGE, RED)
+STRIP = 2.4e6  # Pa
+
+
+def chain(name: str, masses: int, *overrides: str, **more: Any) -> Curve:
+    """A mass-spring boundary."""
+    texts = (f"layer[0].zones={masses}", "output.history=20", *overrides)
+    return Curve(name, deck_data("mass_spring.toml"), texts, **{"bracket": (0.12, 1.6), **more})  # type: ignore[arg-type]
+
+
+def figure_5(work: Workshop) -> None:
+    """Mass-spring boundary by both criteria, and for growing numbers of masses."""
+    size = work.size
+    pressures = [float(p) * foam.PLATEAU for p in np.linspace(2.0, 5.0, size.mass_pressures)]
+    first, few = size.masses[0], [n for n in size.masses if n < MANY]
+    curves = [chain(f"{n} reversible", n, *REVERSIBLE) for n in few]
+    curves.append(chain(f"{first} plastic", first, *PLASTIC))
+    traced = trace_curves(curves, pressures, foam.eq30, max(size.tolerance, 2e-3), work.threads, scan=7)
+    made = [*boundary_table(traced, pressures).columns.values(), *_many(work, pressures)]
+    made.append(Column("Eq. 30", "s", "Eq. 30", [foam.eq30(p) for p in pressures]))
+    table = work.table("fig05_masses", Table(made))
+    _draw_5(work, table)
+    for criterion in CRITERIA:
+        shares = table[f"{first} reversible {criterion}"] / table["Eq. 30"]
+        note = f"{shares[0]:.3f} at p = 2, {shares[-1]:.3f} at p = 5; {first} masses, reversible springs"
+        label = f"T over Eq. 30, mean over p = 2-5, {plain(criterion)}"
+        work.number("5", label, "1", solver=float(np.nanmean(shares)), note=note)
+
+
+def _many(work: Workshop, pressures: Sequence[float]) -> list[Column]:
+    """Full crushing of many masses, at every third pressure."""
+    made = []
+    for n in (n for n in work.size.masses if n >= MANY):
+        some = pressures[::3]
+        curve = chain(f"{n} reversible", n, *COARSE, bracket=(0.15, 0.6), criteria=("fully_crushed",))
+        points = trace_curves([curve], some, foam.eq30, 1e-2, work.threads, scan=3)[curve.name]
+        found = {p: point.durations["fully_crushed"] for p, point in zip(some, points, strict=True)}
+        text = f"critical duration, {n} masses, reversible, fully crushed"
+        made.append(Column(f"{n} reversible fully_crushed", "s", text, [found.get(p, math.nan) for p in pressures]))
+    return made
+
+
+def _draw_5(work: Workshop, table: Table) -> None:
+    figure, (left, right) = new_figure(10.5, 4.6, ncols=2, sharey=True)
+    p, first = table["pressure"] / foam.PLATEAU, work.size.masses[0]
+    for kind, color in (("reversible", BLUE), ("plastic", ORANGE)):
+        for criterion, mark in (("fully_crushed", "s"), ("enhanced", "^")):
+            label, tau = f"{kind} springs, {plain(criterion)}", table[f"{first} {kind} {criterion}"] * foam.RATE
+            left.plot(tau, p, mark + "-", color=color, ms=5, mfc="none", lw=0.8, label=label)
+    for n, color in zip(work.size.masses, COLORS, strict=False):
+        tau, known = table[f"{n} reversible fully_crushed"] * foam.RATE, f"{n} reversible enhanced" in table
+        seen = np.isfinite(tau)
+        right.plot(tau[seen], p[seen], "-s", ms=3, color=color, lw=1.2, label=f"{n} masses")
+        if known:
+            right.plot(table[f"{n} reversible enhanced"] * foam.RATE, p, "^", ms=5, mfc="none", color=color)
+    left.set(xlabel="τd", ylabel="p", title=f"{first} masses", xlim=(0.2, 3.2))
+    right.set(xlabel="τd", title="reversible springs, number of masses", xlim=(0.2, 1.8))
+    for ax in (left, right):
+        duration, pressure = foam.eq30_line(2.0 * foam.PLATEAU, 5.0 * foam.PLATEAU)
+        ax.plot(duration * foam.RATE, pressure / foam.PLATEAU, color=GREY, lw=1.6, ls="--", label="Eq. 30")
+        ax.legend(frameon=False, fontsize=8)
+    caption = (
+        "Mass–spring chain on Eq. 38, viscosity off. Squares: every spring past εD; triangles: support stress above P. "
+        "Reversible springs lie in the paper's window (τd 0.25–1.75), and for ten masses both criteria nearly coincide, "
+        "as the paper says. Plastic springs lie far to the right of it. With more masses the support stress crosses P "
+        "more than once as the pulse grows longer; the lowest crossing that the scan met is shown."
+    )
+    work.picture("fig05", "Fig. 5: mass–spring boundary", caption, figure, table)
+
+
+def peaks_of_many_masses(work: Workshop) -> None:
+    """Peak support stress against duration, by number of masses: is there a boundary at all?"""
+    counts = [n for n in (10, 50, 500) if n in work.size.masses] + [10] * (50 not in work.size.masses)
+    shares = np.geomspace(0.1, 0.8, work.size.strip_points)
+    curves = {n: chain(f"{n}", n, *(REVERSIBLE if n < MANY else COARSE)) for n in dict.fromkeys(counts)}
+    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
+        rows = {
+            n: [
+                pool.submit(
+                    evaluate_at, curve, STRIP, float(x) * foam.eq30(STRIP), ("enhancement",), ("enhancement > 10",)
+                )
+                for x in shares
+            ]
+            for n, curve in reversed(curves.items())
+        }
+        found = {f"{n}": [row.result()["enhancement"] for row in rows[n]] for n in curves}
+    named = {f"peak_over_P_{n}_masses": values for n, values in found.items()}
+    table = work.table("new5_many_masses", columns(T_over_eq30=shares, **named))
+    figure, ax = new_figure(7.5, 4.2)
+    for n, color in zip(curves, COLORS[:: 2 if len(curves) > 2 else 1], strict=False):
+        peaks = np.minimum(table[f"peak_over_P_{n}_masses"], 10.0)
+        ax.plot(shares, peaks, "-o", ms=3, lw=1.0, color=color, label=f"{n} masses")
+    ax.axhline(1.0, color="black", lw=0.8, ls=":")
+    ax.set(xlabel="T over Eq. 30", ylabel="peak support stress over P", xscale="log", yscale="log", ylim=(0.2, 12))
+    ax.set_xticks([0.1, 0.2, 0.4, 0.8], ["0.1", "0.2", "0.4", "0.8"])
+    ax.set_yticks([0.2, 0.5, 1, 2, 5, 10], ["0.2", "0.5", "1", "2", "5", "≥ 10"])
+    ax.minorticks_off()
+    ax.legend(frameon=False)
+    caption = (
+        "Reversible springs, P = 2.4 MPa. Ten masses have one duration from which on the support feels more than P. With "
+        "hundreds, single fast masses reach the support long before the column is crushed, and whether P is "
+        "exceeded changes from one duration to the next: no boundary."
+    )
+    work.picture("new5_many_masses", "New: many masses, is there a boundary?", caption, figure, table)
