@@ -15,6 +15,7 @@ from hydro1d.paper.springs import PLASTIC, chain
 from hydro1d.paper.workshop import (
     BLUE,
     BROWN,
+    GOLD,
     GREEN,
     GREY,
     ORANGE,
@@ -127,13 +128,13 @@ def _with_limits(work: Workshop, table: Table) -> Table:
 
 def _draw_6(work: Workshop, table: Table) -> None:
     figure, (left, right) = new_figure(12.5, 6.4, ncols=2, sharey=True)
+    duration, pressure = foam.eq30_line(1e6, 10e6)
+    left.plot(duration * 1e3, pressure / 1e6, color="black", lw=2.0, label="Eq. 30 (shock theory, R-P-P-L)")
+    right.axvline(1.0, color="black", lw=2.0)
     for ax, scale in ((left, np.full(len(table), 1e-3)), (right, table["Eq. 30"])):
         _draw_rigid(ax, table, scale, work.size.stiffness[1])
         _draw_continuum(ax, table, scale, work.size.unloading)
         _draw_chains(ax, table, scale)
-    duration, pressure = foam.eq30_line(1e6, 10e6)
-    left.plot(duration * 1e3, pressure / 1e6, color="black", lw=2.0, label="Eq. 30 (shock theory, R-P-P-L)")
-    right.axvline(1.0, color="black", lw=2.0)
     left.set(xlabel="T (ms)", ylabel="P (MPa)", xlim=(0, 4), ylim=(0, 10.3))
     right.set(xlabel="T over Eq. 30", xlim=(0.3, 1.5))
     handles, labels = left.get_legend_handles_labels()
@@ -171,7 +172,7 @@ def _draw_chains(ax: Any, table: Table, scale: np.ndarray) -> None:
     for name, label, color in (
         ("reversible", "reversible", BLUE),
         ("plastic", "plastic", ORANGE),
-        ("plastic hard", hard, GREY),
+        ("plastic hard", hard, GOLD),
     ):
         for criterion, mark in zip(CRITERIA, "s^", strict=True):
             look = {"ms": 3.5, "mfc": color} if mark == "s" else {"ms": 4.5, "mfc": "none"}

@@ -97,11 +97,11 @@ def _outcome_numbers(work: Workshop, chain: Run, hard: Run, own: Trajectories, f
     work.number(
         "12",
         "every spring past εD, ten masses",
-        "tau",
+        "τ",
         solver=crushed_at(chain) * foam.RATE,
         note=f"{crushed_at(hard) * foam.RATE:.4g} with β = {beta}, γ = {gamma}",
     )
-    work.number("12", "fully crushed, continuum", "tau", solver=crushed_at(fine) * foam.RATE)
+    work.number("12", "fully crushed, continuum", "τ", solver=crushed_at(fine) * foam.RATE)
 
 
 def potential_error(chain: Run, beta: float, gamma: float) -> float:

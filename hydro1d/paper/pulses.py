@@ -164,7 +164,8 @@ def _stage_1_numbers(work: Workshop, theory: analytic.CompactionPulse, run: Run)
     work.number("11b", "VY (Eq. 41)", "m/s", equations=curve.yield_velocity, solver=carried)
     work.number("11b", "[v] in stage 1", "m/s", equations=final.velocity - curve.yield_velocity, solver=jump)
     work.number("11b", "strain behind the front in stage 1", "1", equations=final.strain, solver=strain)
-    work.number("11b", "X1 (Eq. 42)", "m", equations=x1, solver=at_end)
+    note = "read off a front that is some zones wide; its mass is m1"
+    work.number("11b", "X1 (Eq. 42)", "m", equations=x1, solver=at_end, note=note)
     work.number("11b", "u1 (Eq. 43)", "m", equations=final.velocity * foam.DURATION, solver=u1)
     work.number("11b", "m1 (Eq. 44)", "kg", equations=exact_m1, solver=m1)
 

@@ -10,7 +10,7 @@ import numpy as np
 from hydro1d import analytic
 from hydro1d.analytic import rppl, rppl_energy_balance
 from hydro1d.paper.workshop import BLUE, GREY, RED, Workshop, columns, deck_data, new_figure
-from hydro1d.sweep import Job, evaluate, find_flip
+from hydro1d.sweep import Job, Table, evaluate, find_flip
 from hydro1d.sweep.base import threads_here
 from hydro1d.sweep.job import override
 
@@ -19,51 +19,42 @@ MATERIAL, MASS = analytic.RPPL(155.0, 0.3e6, 0.67), 40.0
 
 def figure_3(work: Workshop) -> None:
     """Eqs. 13 and 19, and the solver's critical lengths in the rigid limit."""
-    velocity = np.linspace(0.0, 400.0, 81)
-    shock = rppl.critical_length(MATERIAL, MASS, velocity)
-    energy = rppl_energy_balance.critical_length(MATERIAL, MASS, velocity)
     speeds = np.linspace(400.0 / work.size.striker_points, 400.0, work.size.striker_points)
     soft, stiff = work.size.stiffness
     with ThreadPoolExecutor(work.threads or threads_here()) as pool:
         tasks = [pool.submit(_critical_length, work, float(v), k) for k in (stiff, soft) for v in speeds]
-        lengths = np.array([task.result() for task in tasks]).reshape(2, -1)
+        stiffer, softer = np.array([task.result() for task in tasks]).reshape(2, -1)
     ratio = math.sqrt(stiff / soft)
-    limit = (ratio * lengths[0] - lengths[1]) / (ratio - 1.0)  # the error goes as stiffness^(-1/2)
+    limit = (ratio * stiffer - softer) / (ratio - 1.0)  # the error goes as stiffness^(-1/2)
+    _draw(work, columns(v0__m_s=speeds, stiff__m=stiffer, soft__m=softer, rigid_limit__m=limit))
+    exact, wrong = (float(scheme.critical_length(MATERIAL, MASS, 400.0)) for scheme in (rppl, rppl_energy_balance))
+    label, note = "critical length at 400 m/s", f"extrapolated to rigid; {stiffer[-1]:.4g} m at stiffness {stiff:g} σP"
+    work.number("3", f"{label}, Eq. 13", "m", paper=2.62, equations=exact, solver=limit[-1], note=note)
+    work.number(
+        "3", f"{label}, Eq. 19", "m", paper=15.9, equations=wrong, note="Scheme 2, which the solver does not follow"
+    )
+    worst = float(np.max(np.abs(limit / rppl.critical_length(MATERIAL, MASS, speeds) - 1.0)))
+    work.number(
+        "3", "largest deviation of the solver from Eq. 13", "%", solver=100.0 * worst, note="extrapolated, all v0"
+    )
+
+
+def _draw(work: Workshop, lengths: Table) -> None:
+    velocity = np.linspace(0.0, 400.0, 81)
+    shock, energy = (scheme.critical_length(MATERIAL, MASS, velocity) for scheme in (rppl, rppl_energy_balance))
+    lengths = work.table("fig03_lengths", lengths)
+    speeds, stiffer, limit = (lengths[name] for name in ("v0 (m s-1)", "stiff (m)", "rigid_limit (m)"))
     figure, ax = new_figure()
     ax.plot(velocity, shock, color=BLUE, lw=1.8, label="Eq. 13, mass and momentum")
     ax.plot(velocity, energy, color=GREY, lw=1.8, ls="--", label="Eq. 19, energy balance")
-    ax.plot(speeds, lengths[0], "o", mfc="none", color=RED, label=f"solver, stiffness {stiff:g} σP")
+    ax.plot(speeds, stiffer, "o", mfc="none", color=RED, label=f"solver, stiffness {work.size.stiffness[1]:g} σP")
     ax.plot(speeds, limit, "x", color=RED, label="solver, extrapolated to rigid")
     ax.set(xlabel="v0 (m/s)", ylabel="critical length (m)", xlim=(0, 410), ylim=(0, 16.5))
     ax.legend(frameon=False)
-    data = columns(
-        v0__m_s=velocity,
-        eq13__m=shock,
-        eq19__m=energy,
-        solver_v0__m_s=speeds,
-        solver__m=lengths[0],
-        softer__m=lengths[1],
-        solver_rigid_limit__m=limit,
-    )
-    caption = (
-        "G = 40 kg/m², σP = 0.3 MPa, εD = 0.67, ρ0 = 155 kg/m³. The solver knows nothing of either scheme "
-        "and finds Eq. 13."
-    )
+    caption = "G = 40 kg/m², σP = 0.3 MPa, εD = 0.67, ρ0 = 155 kg/m³. The solver knows nothing of either scheme and finds Eq. 13."
+    solver = {f"solver {name}": lengths[name] for name in lengths}
+    data = columns(v0__m_s=velocity, eq13__m=shock, eq19__m=energy, **solver)
     work.picture("fig03", "Fig. 3: critical length against impact velocity", caption, figure, data)
-    exact = float(rppl.critical_length(MATERIAL, MASS, 400.0))
-    work.number(
-        "3",
-        "critical length at 400 m/s, Eq. 13",
-        "m",
-        paper=2.62,
-        equations=exact,
-        solver=limit[-1],
-        note=f"solver extrapolated to rigid; {lengths[0][-1]:.4g} m at stiffness {stiff:g}",
-    )
-    wrong = float(rppl_energy_balance.critical_length(MATERIAL, MASS, 400.0))
-    work.number("3", "critical length at 400 m/s, Eq. 19", "m", paper=15.9, equations=wrong, note="Scheme 2")
-    worst = float(np.max(np.abs(limit / rppl.critical_length(MATERIAL, MASS, speeds) - 1.0)))
-    work.number("3", "largest deviation of the solver from Eq. 13", "1", solver=worst, note="extrapolated, all v0")
 
 
 def _critical_length(work: Workshop, speed: float, stiffness: float) -> float:

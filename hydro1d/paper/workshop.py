@@ -180,13 +180,14 @@ def deck_data(name: str) -> dict[str, Any]:
 
 
 def columns(**named: Sequence[float] | np.ndarray) -> Table:
-    """A table of series of any length: shorter ones end in NaN. Names are as given, ``__`` before the unit."""
+    """A table of series of any length: shorter ones end in NaN. Names are as given, ``__`` and a unit behind them."""
     longest = max(len(values) for values in named.values())
     made = []
     for name, values in named.items():
         padded = [float(value) for value in values] + [math.nan] * (longest - len(values))
         label, _, unit = name.partition("__")
-        made.append(Column(f"{label} ({unit.replace('_', ' ')})" if unit else label, unit, label, padded))
+        unit = unit.replace("m_s", "m s-1")
+        made.append(Column(f"{label} ({unit})" if unit else label, unit, label, padded))
     return Table(made)
 
 

@@ -1,7 +1,10 @@
 """Sweeps: points, quantities, failed runs, resuming, the same bits however they are run."""
 
+import hashlib
 import json
 import math
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -9,6 +12,7 @@ import pytest
 from hydro1d.cli import main
 from hydro1d.errors import DeckError, FileProblem, Interrupted
 from hydro1d.sweep import Parameter, Sweep, load_sweep, parse_quantity, read_table, run_sweep
+from hydro1d.sweep.base import threads_here
 
 DECK = """
 [material.foam]
@@ -293,22 +297,34 @@ def test_energy_shares_add_up(folder):
     assert sum(table[name][0] for name in names) == pytest.approx(1.0, abs=1e-9)
 
 
+def hashed(threads):
+    """A job that needs nothing but processors: what two threads can bring on this machine just now."""
+    with ThreadPoolExecutor(threads) as pool:
+        list(pool.map(lambda block: hashlib.sha256(block).digest(), [bytes(40_000_000)] * 8))
+
+
+def seconds(job, threads):
+    begun = time.perf_counter()
+    job(threads)
+    return time.perf_counter() - begun
+
+
 @pytest.mark.slow
 def test_two_threads_are_nearly_twice_as_fast(folder):
-    """On an idle machine; the best of three, since others may be at work."""
-    import time
-
-    from hydro1d.sweep.base import threads_here
-
+    """Best times of rounds in which one and two threads take turns; skipped where others keep a processor busy."""
     if threads_here() < 2:
         pytest.skip("one processor")
     parameters = [Parameter(key="left.peak", first="2 MPa", last="3 MPa", count=40)]
     sweep = Sweep.of(folder / "pulse.toml", parameters, ["enhancement"], ["layer[0].zones=400"])
-    run_sweep(sweep, threads=1)
-
-    def seconds(threads):
-        begun = time.perf_counter()
-        run_sweep(sweep, threads=threads)
-        return time.perf_counter() - begun
-
-    assert max(seconds(1) / seconds(2) for _ in range(3)) > 1.7
+    run_sweep(sweep, threads=1)  # compiles
+    jobs = {"sweep": lambda threads: run_sweep(sweep, threads=threads), "hashing": hashed}
+    best = {(name, threads): math.inf for name in jobs for threads in (1, 2)}
+    for _ in range(6):
+        for name, threads in best:
+            best[name, threads] = min(best[name, threads], seconds(jobs[name], threads))
+        gain = {name: best[name, 1] / best[name, 2] for name in jobs}
+        if gain["sweep"] > 1.7:
+            return
+    if gain["hashing"] < 1.85:
+        pytest.skip(f"the machine is busy: two threads that only hash are {gain['hashing']:.2f} times one")
+    assert gain["sweep"] > 1.7
