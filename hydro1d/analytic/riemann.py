@@ -177,6 +177,12 @@ class RiemannProblem:
         return left.star, right.star
 
     @property
+    def inner_speeds(self) -> tuple[float, float]:
+        """Lagrangian speed of the inner edge of the left and of the right wave: shock, or tail of a fan, m/s."""
+        left, right = self._waves
+        return left.tail, right.tail
+
+    @property
     def _waves(self) -> tuple[_Wave, _Wave]:
         star = self.star_pressure, self.star_velocity
         return _Wave(self.left, -1, *star), _Wave(self.right, 1, *star)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +15,6 @@ from hydro1d.deck import Layer
 from hydro1d.errors import BreakdownError
 from hydro1d.solver import Frame, Outcome, solve
 from hydro1d.state import State as SolverState
-from hydro1d.viscosity import Viscosity
 
 FRONT_SHARE = 1e-4  # of the stress jump: where q has fallen below it the front has passed
 START_UP = 5  # zones at the loaded end whose medians are left out; `worst` has them
@@ -70,19 +69,21 @@ def simulate(
     end: float,
     profiles: Sequence[float] = (),
     history: int = 0,
-    viscosity: Viscosity | None = None,
-    cfl: float = 0.9,
+    cfl: float | None = None,
     probes: Sequence[float] = (),
 ) -> Recording:
-    """Run a column; profiles at the given times (the end unless given). Raises BreakdownError if it breaks down."""
+    """Run a column with default settings; profiles at the given times (the end unless given).
+
+    cfl: only for studies of the step itself. Raises BreakdownError if the run breaks down.
+    """
     layers = [layers] if isinstance(layers, Layer) else list(layers)
+    settings: dict[str, Any] = {} if cfl is None else {"cfl": cfl}
     column = build_column(
         layers,
         left,
         right,
         end=end,
-        cfl=cfl,
-        viscosity=viscosity,
+        **settings,
         profile_times=profiles or (end,),
         history=history,
         probes=probes,
@@ -135,6 +136,14 @@ def measure_front(column: Column, fields: dict[str, np.ndarray], exact: Jump, co
 def _median(fields: dict[str, np.ndarray], zones: slice) -> State:
     names = ("velocity", "stress", "strain", "density", "internal_energy")
     return State(*(float(np.median(fields[name][zones])) for name in names))
+
+
+def mean_over(t: ArrayLike, values: ArrayLike, start: float, end: float) -> float:
+    """Mean over a stretch of time of values that are linear between the times."""
+    t, values = np.asarray(t, dtype=float), np.asarray(values, dtype=float)
+    inside = (t > start) & (t < end)
+    times = np.concatenate([[start], t[inside], [end]])
+    return float(np.trapezoid(np.interp(times, t, values), times) / (end - start))
 
 
 def order(zones: ArrayLike, errors: ArrayLike) -> float:

@@ -18,10 +18,14 @@ from hydro1d.verify.rows import Table, line
 
 STEEL_DENSITY, STEEL_MODULUS, PLATE = 7800.0, 200e9, 2e-3  # a plate of 15.6 kg/m²
 PEAK = 8e6
-STIFFNESSES = (1000.0, 4000.0, 16000.0)
+STIFFNESSES = (
+    4000.0,
+    16000.0,
+    64000.0,
+)  # in plateau stresses: 64000 is what 1 % of the rigid limit takes with a margin
 TIMES = (0.25, 0.5, 0.75)  # of the stopping time
-ROWS = 14
-RAW = "the precursor's velocity is left out by the rigid theory"
+ROWS = 22
+RAW = "the precursor's velocity √(σP/(K ρ0)), 0.5 m/s at this K, is left out by the rigid theory"
 LIMIT = "the line through three stiffnesses in K^(−½), at zero"
 PULSES = {
     "exponential": (ExponentialPulse(PEAK, 1e-3), Exponential(peak=PEAK, decay=1e-3)),
@@ -45,38 +49,48 @@ def _study(table: Table, effort: Effort) -> None:
     for name, (pulse, load) in PULSES.items():
         exact = _theory(pulse)
         runs = [_run(k, load, exact.length, zones, 1.15 * exact.stop_time) for k in STIFFNESSES]
-        times = np.array(TIMES) * exact.stop_time
-        theory = exact.history(times).displacement
-        found = np.array([np.interp(times, run["time"], run["left_position"]) for run in runs])
-        for k, share in enumerate(TIMES):
-            limit = extrapolate(STIFFNESSES, found[:, k], 0.5)
-            table.compare(f"{name}: u at {share:g} of the stopping time, m, limit", theory[k], limit, 1e-2, LIMIT)
-        largest = np.array([run["left_position"].max() for run in runs])
-        last = float(exact.history(exact.stop_time).displacement)
-        table.compare(f"{name}: largest u, m, K = 16000 σP", last, largest[-1], 2e-2, RAW)
-        table.compare(f"{name}: largest u, m, limit", last, extrapolate(STIFFNESSES, largest, 0.5), 1e-2, LIMIT)
-        stops = [crossing(run["time"][5:], run["left_velocity"][5:]) for run in runs]
-        table.compare(
-            f"{name}: stop time, s, limit", exact.stop_time, extrapolate(STIFFNESSES, stops, 0.5), 1e-2, LIMIT
-        )
-        errors = np.abs(largest / last - 1.0)
-        found_order = order(np.sqrt(STIFFNESSES), errors)
-        table.bound(f"{name}: largest u, order in √K", errors[-1], 2e-2, LIMIT, order=found_order, least_order=0.8)
-        t = np.linspace(0.0, exact.stop_time, 300)
-        lines = [line(1e3 * t, exact.history(t).displacement, "rigid theory", "exact")]
-        for run, stiffness in ((runs[0], 1000), (runs[-1], 16000)):
-            lines.append(line(1e3 * run["time"], run["left_position"], f"K = {stiffness} σP"))
-        table.panel(f"{name} pulse", "t, ms", "u, m", lines)
-        table.panel(
-            f"{name}: convergence", "K/σP", "relative error of u", [line(STIFFNESSES, errors, "largest u")], log=True
-        )
+        _rigid(table, name, exact, runs)
+        _figures(table, name, exact, runs)
+
+
+def _rigid(table: Table, name: str, exact: CladColumn, runs: list[Recording]) -> None:
+    """Path, largest displacement and stop time at the stiffest, and extrapolated, against the rigid formulas."""
+    times = np.array(TIMES) * exact.stop_time
+    paths = np.array([np.interp(times, run["time"], run["left_position"]) for run in runs])
+    largest = np.array([run["left_position"].max() for run in runs])
+    stops = np.array([crossing(run["time"][5:], run["left_velocity"][5:]) for run in runs])
+    last = float(exact.history(exact.stop_time).displacement)
+    found = [
+        *((f"u at {share:g} of the stopping time, m", paths[:, k]) for k, share in enumerate(TIMES)),
+        ("largest u, m", largest),
+        ("stop time, s", stops),
+    ]
+    theory = [*exact.history(times).displacement, last, exact.stop_time]
+    for (quantity, values), value in zip(found, theory, strict=True):
+        table.compare(f"{name}: {quantity}, K = {STIFFNESSES[-1]:g} σP", value, values[-1], 1e-2, RAW)
+        table.compare(f"{name}: {quantity}, limit", value, extrapolate(STIFFNESSES, values, 0.5), 3e-3, LIMIT)
+    errors = np.abs(largest / last - 1.0)
+    found_order = order(np.sqrt(STIFFNESSES), errors)
+    table.bound(f"{name}: largest u, order in √K", errors[-1], 1e-2, LIMIT, order=found_order, least_order=0.8)
+
+
+def _figures(table: Table, name: str, exact: CladColumn, runs: list[Recording]) -> None:
+    t = np.linspace(0.0, exact.stop_time, 300)
+    path = exact.history(t).displacement
+    lines = [line(1e3 * t, path, "rigid theory", "exact")]
+    for run, stiffness in ((runs[0], STIFFNESSES[0]), (runs[-1], STIFFNESSES[-1])):
+        lines.append(line(1e3 * run["time"], run["left_position"], f"K = {stiffness:g} σP"))
+    table.panel(f"{name} pulse", "t, ms", "u, m", lines)
+    errors = np.abs([run["left_position"].max() / path[-1] - 1.0 for run in runs])
+    convergence = [line(STIFFNESSES, errors, "largest u")]
+    table.panel(f"{name}: convergence", "K/σP", "relative error of u", convergence, log=True)
 
 
 def cases() -> list[Case]:
     """One case."""
     about = (
         "A steel plate of 15.6 kg/m² on R-P-P-L foam with a fixed back, loaded by an exponential and by a "
-        "triangular pulse of 8 MPa; the "
-        "plate is an elastic layer of two zones. In the rigid limit u(t) is the root of a quadratic."
+        "triangular pulse of 8 MPa; the plate is an elastic layer of two zones. In the rigid limit u(t) is the root of "
+        "a quadratic; rows at K = 64000 σP, and the limit in K^(−½) of three stiffnesses."
     )
     return [Case("clad-plate", "Plate on R-P-P-L under a pulse", about, ROWS, _study)]

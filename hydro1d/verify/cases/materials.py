@@ -8,6 +8,7 @@ import numpy as np
 
 from hydro1d import analytic
 from hydro1d.laws.base import Law
+from hydro1d.laws.eph import EPH
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.epph_tangent import EPPHTangent
 from hydro1d.laws.eppr import EPPR
@@ -24,13 +25,18 @@ FOAM = {"density": DENSITY, "modulus": MODULUS, "plateau_stress": PLATEAU, "dens
 
 
 class Material(NamedTuple):
-    """A law and its curve; stiff: locking so steep that a strain error comes back as a large stress error."""
+    """A law and its curve.
+
+    stiff: locking so steep that a strain error comes back as a large stress error. shock: whether a compaction shock
+    runs in it, or a linear plastic wave.
+    """
 
     name: str
     law: Law
     curve: analytic.Curve
     pressures: tuple[float, ...] = (1.5, 3.0, 6.0, 10.0)
     stiff: bool = False
+    shock: bool = True
     zones: int = 120  # coarsest resolution of its steps: finer where a weak or nearly linear front is many zones wide
 
 
@@ -56,13 +62,22 @@ def table() -> Material:
     strains = np.concatenate([[PLATEAU / MODULUS], np.linspace(DENSIFICATION, 0.985, 40)])
     points = tuple((float(e), float(smooth.stress(e))) for e in strains)
     law = Table(density=DENSITY, modulus=MODULUS, curve=((0.0, 0.0), *points))
-    return Material("table", law, analytic.Table(DENSITY, MODULUS, *(tuple(c) for c in zip(*points, strict=True))))
+    curve = analytic.Table(DENSITY, MODULUS, *(tuple(column) for column in zip(*points, strict=True)))
+    return Material("table", law, curve, zones=240)
 
 
 def rph() -> Material:
     """Hardening from the first, elastic below."""
     law = RPH(density=DENSITY, modulus=MODULUS, plateau_stress=PLATEAU, hardening=0.1e6)
     return Material("rph", law, analytic.RPH(DENSITY, MODULUS, PLATEAU, 0.1e6), zones=600)
+
+
+def eph() -> Material:
+    """Two straight lines: no shock."""
+    hardening = 4e6
+    law = EPH(density=DENSITY, modulus=MODULUS, yield_stress=PLATEAU, hardening_modulus=hardening)
+    curve = analytic.EPH(DENSITY, MODULUS, PLATEAU, hardening)
+    return Material("eph", law, curve, (1.5, 2.0, 3.0, 4.0), shock=False, zones=240)
 
 
 def trilinear(ratio: float) -> Material:

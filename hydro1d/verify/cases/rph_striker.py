@@ -18,7 +18,7 @@ from hydro1d.verify.rows import Table, line
 HARDENING, MASS, VELOCITY = 0.1e6, 20.0, 120.0
 MODULI = (0.4e9, 1.6e9, 6.4e9)
 TIMES = (0.2, 0.4, 0.6, 0.8)  # of the stopping time
-ROWS = 13
+ROWS = 17
 RAW = "the precursor's velocity σP/√(E ρ0) is left out by the rigid theory"
 LIMIT = "the line through three moduli in E^(−½), at zero"
 DECAYS = "a front that decays within its own width leaves less strain than a sharp one: the error falls as that width"
@@ -41,26 +41,33 @@ def _study(table: Table, effort: Effort) -> None:
     _finite(table, effort, exact, runs[0])
     stops = np.array([crossing(run["time"], run["left_striker_velocity"]) for run in runs])
     distances = np.array([run["left_striker_position"].max() for run in runs])
-    for name, value, found in (
-        ("stop time, s", exact.stop_time, stops),
-        ("stop distance, m", exact.stop_distance, distances),
-    ):
-        table.compare(f"{name}, E = 6.4 GPa", value, found[-1], 2e-2, RAW)
-        table.compare(f"{name}, limit", value, extrapolate(MODULI, found, 0.5), 1e-2, LIMIT)
-    t = np.array(TIMES) * exact.stop_time
-    theory = exact.history(t).displacement
-    displacements = np.array([np.interp(t, run["time"], run["left_striker_position"]) for run in runs])
-    for k, share in enumerate(TIMES):
-        limit = extrapolate(MODULI, displacements[:, k], 0.5)
-        table.compare(f"u at {share:g} of the stopping time, m, limit", theory[k], limit, 1e-2, LIMIT)
-    errors = np.abs(distances / exact.stop_distance - 1.0)
-    found_order = order(np.sqrt(MODULI), errors)
-    table.bound(
-        "stop distance, approach to the limit, order in √E", errors[-1], 2e-2, LIMIT, order=found_order, least_order=0.8
-    )
+    errors = _rigid(table, exact, runs, stops, distances)
     energy = max(float(np.abs(run["energy_error"]).max()) for run in runs)
     table.bound("energy balance", energy, 1e-12, "compatible differencing")
     _figures(table, exact, runs[-1], errors, np.abs(stops / exact.stop_time - 1.0))
+
+
+def _rigid(
+    table: Table, exact: RPHStriker, runs: list[Recording], stops: np.ndarray, distances: np.ndarray
+) -> np.ndarray:
+    """Stop and path at the stiffest, and extrapolated, against the rigid formulas; errors of the stop distance."""
+    times = np.array(TIMES) * exact.stop_time
+    paths = np.array([np.interp(times, run["time"], run["left_striker_position"]) for run in runs])
+    found = [
+        ("stop time, s", stops),
+        ("stop distance, m", distances),
+        *((f"u at {share:g} of the stopping time, m", paths[:, k]) for k, share in enumerate(TIMES)),
+    ]
+    theory = [exact.stop_time, exact.stop_distance, *exact.history(times).displacement]
+    for (quantity, values), value in zip(found, theory, strict=True):
+        table.compare(f"{quantity}, E = 6.4 GPa", value, values[-1], 1e-2, RAW)
+        table.compare(f"{quantity}, limit", value, extrapolate(MODULI, values, 0.5), 1e-2, LIMIT)
+    errors = np.abs(distances / exact.stop_distance - 1.0)
+    found_order = order(np.sqrt(MODULI), errors)
+    table.bound(
+        "stop distance, approach to the limit, order in √E", errors[-1], 1e-2, LIMIT, order=found_order, least_order=0.8
+    )
+    return errors
 
 
 def _finite(table: Table, effort: Effort, exact: RPHStriker, run: Recording) -> None:
@@ -127,7 +134,7 @@ def cases() -> list[Case]:
     """One case."""
     about = (
         "20 kg/m² at 120 m/s on foam that hardens from the first (R-PH). The rigid theory has closed forms; the "
-        "solver's foam is elastic "
-        "below yield, so the case shows the softest run against the theory of its modulus and the limit in E^(−½)."
+        "solver's foam is elastic below yield, so the case shows the softest run against the theory of its modulus, "
+        "the stiffest, 6.4 GPa, against the rigid formulas, and the limit in E^(−½)."
     )
     return [Case("rph-striker", "Striker on R-PH", about, ROWS, _study)]

@@ -21,7 +21,7 @@ MASS, VELOCITY = 40.0, 100.0
 STIFFNESSES = (1000.0, 4000.0, 16000.0)  # in plateau stresses: the law's default, and what 1 % of the rigid limit takes
 SHARES = (0.1, 0.3, 0.5, 0.7)  # of the stopping displacement
 HALVINGS = 8
-ROWS = 20
+ROWS = 23
 FINITE = "theory of the same finite stiffness (precursor, two fronts): what is left is the numerical front"
 RIGID = "the precursor's velocity √(σP/(K ρ0)) is left out by the rigid theory: 0.35 m/s, 0.35 % of v0, at this K"
 LIMIT = "the line through three stiffnesses in K^(−½), at zero"
@@ -113,6 +113,7 @@ def _study(table: Table, effort: Effort) -> None:
         limit = extrapolate(STIFFNESSES, velocities[:, k], 0.5)
         table.compare(f"v/v0 at {share:g} of the way (Eq. 8), limit", theory[k], limit, 3e-3, LIMIT, scale=1.0)
     for k, share in enumerate(SHARES[1:], start=1):
+        table.compare(f"σD over Eq. 9 at {share:g} of the way, K = 16000 σP", 1.0, stresses[-1, k], 1e-2, RIGID)
         limit = extrapolate(STIFFNESSES, stresses[:, k], 0.5)
         table.compare(f"σD over Eq. 9 at {share:g} of the way, limit", 1.0, limit, 1e-2, LIMIT)
     errors = np.abs(velocities - theory).max(axis=1)

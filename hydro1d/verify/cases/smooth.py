@@ -58,7 +58,7 @@ def _exact() -> SimpleWave:
     return SimpleWave(density=1.0, pressure=1.0, velocity=SPEED, rise_time=RISE, gamma=GAMMA, length=1.0)
 
 
-def _run(zones: int, boundary: Boundary, cfl: float = 0.9) -> Recording:
+def _run(zones: int, boundary: Boundary, cfl: float | None = None) -> Recording:
     law = IdealGas(density=1.0, gamma=GAMMA, pressure=1.0)
     return simulate(Layer(law=law, thickness=1.0, zones=zones), boundary, Wall(), end=END, cfl=cfl)
 
