@@ -42,15 +42,29 @@ def length_allowed(length: float) -> None:
 
 def times(t: ArrayLike, end: float = math.inf, reason: str = "") -> Array:
     """Times as an array, all in [0, end]; `reason` says why the solution ends there."""
-    array = np.asarray(t, dtype=float)
-    allowed = f"within [0, {end:.9g}] s" + (f" ({reason})" if reason else "")
-    require(bool(np.all((array >= 0.0) & (array <= end))), "t", t, allowed)
-    return array
+    why = f" ({reason})" if reason and math.isfinite(end) else ""
+    return _within("t", t, end, f"within [0, {end:.9g}] s{why}")
 
 
 def coordinates(coordinate: ArrayLike, length: float) -> Array:
     """Lagrangian coordinates as an array, all in [0, length]."""
-    array = np.asarray(coordinate, dtype=float)
-    inside = bool(np.all((array >= 0.0) & (array <= length)))
-    require(inside, "coordinate", coordinate, f"within [0, {length:.9g}] m")
+    return _within("coordinate", coordinate, length, f"within [0, {length:.9g}] m")
+
+
+def finite(name: str, values: ArrayLike) -> Array:
+    """Any finite numbers as an array."""
+    array = np.asarray(values, dtype=float)
+    _require_all(np.isfinite(array), name, array, "finite")
     return array
+
+
+def _within(name: str, values: ArrayLike, end: float, allowed: str) -> Array:
+    array = np.asarray(values, dtype=float)
+    _require_all((array >= 0.0) & (array <= end), name, array, allowed)
+    return array
+
+
+def _require_all(good: Flags, name: str, values: Array, allowed: str) -> None:
+    """As `require`, for arrays: the message shows the first value that is not allowed."""
+    if not np.all(good):
+        require(False, name, float(values[~good].flat[0]), allowed)

@@ -21,6 +21,8 @@ from hydro1d.analytic.pulses import Pulse
 from hydro1d.analytic.rigid import FrontHistory
 from hydro1d.analytic.rppl import RPPL
 
+ENDS = "then the plate rests or the column is locked"
+
 
 @dataclass(frozen=True)
 class CladColumn:
@@ -90,7 +92,7 @@ class CladColumn:
 
     def history(self, t: ArrayLike) -> FrontHistory:
         """Displacement, velocity, front and stresses at times t (s); left_stress is between plate and column."""
-        t = times(t, self.end_time, "then the plate rests or the column is locked")
+        t = times(t, self.end_time, ENDS)
         front = self._front(t)
         velocity = self._velocity(t, front)
         stress = self.material.shock_stress(velocity)
@@ -111,7 +113,8 @@ class CladColumn:
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""
-        coordinate, t = coordinates(coordinate, self.length), np.asarray(t, dtype=float)
+        coordinate = coordinates(coordinate, self.length)
+        t = times(t, self.end_time, ENDS)
         now = self.history(t)
         crushed = coordinate < now.front
         passed = np.where(crushed, coordinate, 0.0)

@@ -233,7 +233,8 @@ class CompactionColumn(ABC):
         start = self._start
         decaying = t > start.time
         share = np.minimum(t / start.time, 1.0) if start.time > 0.0 else np.ones_like(t)
-        later = self._decay(np.clip(t, start.time, self.arrest_time).ravel()).reshape(3, *t.shape)
+        moments = np.clip(t, start.time, self.arrest_time).ravel()
+        later = (self._decay(moments) if t.size else moments).reshape(3, *t.shape)  # scipy takes no empty array
         velocity = np.where(decaying, later[0], start.velocity)
         front = np.where(decaying, later[1], start.front * share)
         return np.where(decaying, later[2], start.displacement * share), velocity, front

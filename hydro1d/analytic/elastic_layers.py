@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydro1d.analytic._checks import Array, Flags, coordinates, positive, require, times
+from hydro1d.analytic._checks import Array, Flags, coordinates, finite, positive, require, times
 from hydro1d.analytic.jumps import Fields, Jump, State, rest_state
 
 _END_REFLECTION = {"wall": 1.0, "free": -1.0, "transmitting": 0.0}
@@ -95,10 +95,10 @@ class ElasticLayers:
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s); on the interface, those of the second layer (strain jumps there)."""
         coordinate = coordinates(coordinate, self.first.thickness + self.second.thickness)
-        coordinate, t = np.broadcast_arrays(coordinate, times(t))
+        coordinate, t = np.broadcast_arrays(coordinate, times(finite("t", t)))
         inside: Flags = coordinate < self.first.thickness
         near, far = coordinate / self.first.wave_speed, (coordinate - self.first.thickness) / self.second.wave_speed
-        down_1, up_1, down_2, up_2 = self._echoes(float(np.max(t)))
+        down_1, up_1, down_2, up_2 = self._echoes(float(np.max(t, initial=0.0)))
         left = self.first.fields(
             self._sum(down_1, t - near),
             self._sum(up_1, t - (self.first.transit_time - near)),

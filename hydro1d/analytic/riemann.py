@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from hydro1d.analytic._checks import Array, positive, require, times
+from hydro1d.analytic._checks import Array, finite, positive, require, times
 from hydro1d.analytic.jumps import Fields, Jump, State
 
 
@@ -203,12 +203,12 @@ class RiemannProblem:
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at the Lagrangian coordinate (m) and t (s)."""
-        offset = np.asarray(coordinate, dtype=float) - self.interface
+        offset = finite("coordinate", coordinate) - self.interface
         return self._fields_at(_speed(offset, times(t)))
 
     def position(self, coordinate: ArrayLike, t: ArrayLike) -> Array:
         """Where the material of a Lagrangian coordinate (m) is at time t (s), m."""
-        offset, t = np.broadcast_arrays(np.asarray(coordinate, dtype=float) - self.interface, times(t))
+        offset, t = np.broadcast_arrays(finite("coordinate", coordinate) - self.interface, times(t))
         speed = _speed(offset, t)
         left, right = self._waves
         moved = np.where(offset < 0.0, left.displacement_speed(np.abs(speed)), right.displacement_speed(np.abs(speed)))
@@ -216,7 +216,7 @@ class RiemannProblem:
 
     def laboratory(self, x: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at positions x (m) at time t (s)."""
-        offset = np.asarray(x, dtype=float) - self.interface
+        offset = finite("x", x) - self.interface
         speed = _speed(offset, times(t))
         return self._fields_at(self._lagrangian_speed(speed))
 

@@ -76,15 +76,17 @@ class RPPLPulse(StoppingFront):
         """Displacement, velocity, front and stresses at times t (s)."""
         t = times(t, self.locking_time, "then the column is fully locked")
         loaded = t <= self.duration
-        later = self.after_pulse.history(np.where(loaded, 0.0, t - self.duration))
+        # Stage 2 has its own last moment, which differs from t - T by round-off.
+        since = np.minimum(t - self.duration, min(self.after_pulse.stop_time, self.after_pulse.locking_time))
+        later = self.after_pulse.history(np.where(loaded, 0.0, since))
         displacement = self.pulse_velocity * np.minimum(t, self.duration) + later.displacement
-        unloaded = np.where(np.isnan(later.front_stress), np.nan, 0.0)
+        at_rest = t > self.stop_time
         return FrontHistory(
             displacement,
             np.where(loaded, self.pulse_velocity, later.velocity),
             displacement / self.material.densification_strain,
-            np.where(loaded, self.pressure, later.front_stress),
-            np.where(loaded, self.pressure, unloaded),
+            np.where(at_rest, np.nan, np.where(loaded, self.pressure, later.front_stress)),
+            np.where(at_rest, np.nan, np.where(loaded, self.pressure, 0.0)),
         )
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:

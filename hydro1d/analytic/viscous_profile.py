@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolution, solve_ivp
 
-from hydro1d.analytic._checks import Array, not_negative, positive, require
+from hydro1d.analytic._checks import Array, finite, not_negative, positive, require
 from hydro1d.analytic.curves import Curve
 from hydro1d.analytic.hugoniot import compaction_hugoniot
 from hydro1d.analytic.jumps import Fields
@@ -109,7 +109,7 @@ class ViscousProfile:
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; a half-space both ways."""
-        place = np.asarray(coordinate, dtype=float) - self.front_speed * np.asarray(t, dtype=float)
+        place = finite("coordinate", coordinate) - self.front_speed * finite("t", t)
         strain = self._strain_at(place)
         curve, change = self.curve, strain - self._ends[0]
         velocity = curve.yield_velocity + self.front_speed * change

@@ -68,7 +68,7 @@ class Curve(ABC):
         Raises ValueError where the curve never reaches that stress.
         """
         if stress <= self.yield_stress:
-            return stress / self.modulus
+            return below_one(stress / self.modulus, stress)
         highest = float(self.stress(self.strain_limit))
         require(stress <= highest, "stress", stress, f"at most {highest:.9g} Pa, where the curve ends")
         low = self.yield_strain
