@@ -243,3 +243,14 @@ def test_shock_forms_where_the_strain_gradient_diverges():
 def test_invalid_parameters_are_named(make, name):
     with pytest.raises(ValueError, match=rf"{name} = .*must be"):
         make()
+
+
+@given(gases, gases)
+def test_inner_speeds_bound_the_star_region(left, right):
+    problem = valid_problem(left, right)
+    sides = zip((-1, 1), problem.inner_speeds, problem.star_states, (left, right), strict=True)
+    for sign, speed, star, gas in sides:
+        assume(abs(star.density / gas.density - 1.0) > 1e-3)  # a weaker wave changes too little to be seen
+        inside, beyond = problem(0.3 + sign * speed * np.array([0.999, 1.001]), 1.0).density
+        assert float(inside) == pytest.approx(star.density, rel=1e-12)
+        assert float(beyond) != pytest.approx(star.density, rel=1e-12)

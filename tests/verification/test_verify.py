@@ -13,7 +13,7 @@ import pytest
 from hydro1d.cli import main
 from hydro1d.verify import Case, Effort, Row, Table, all_cases, chosen, run_case, run_suite
 from hydro1d.verify.markdown import markdown_page
-from hydro1d.verify.measure import crossing, extrapolate, order
+from hydro1d.verify.measure import crossing, extrapolate, mean_over, order
 from hydro1d.verify.page import html_page
 from hydro1d.verify.rows import line
 from hydro1d.verify.suite import CASES, ROWS, Report, registered_whole
@@ -97,6 +97,7 @@ def test_order_extrapolation_and_crossing():
     assert extrapolate([1.0, 4.0, 16.0], 2.0 + 3.0 / np.sqrt([1.0, 4.0, 16.0]), 0.5) == pytest.approx(2.0)
     assert crossing([0.0, 1.0, 2.0], [2.0, 1.0, -1.0]) == pytest.approx(1.5)
     assert math.isnan(crossing([0.0, 1.0], [2.0, 1.0]))
+    assert mean_over([0.0, 1.0, 3.0], [0.0, 1.0, 1.0], 0.5, 2.0) == pytest.approx((0.375 + 1.0) / 1.5)
 
 
 def test_patterns_choose_cases():

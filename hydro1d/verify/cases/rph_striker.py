@@ -36,7 +36,7 @@ def _study(table: Table, effort: Effort) -> None:
     foam = RPHFoam(DENSITY, PLATEAU, HARDENING)
     free = RPHStriker(foam, MASS, VELOCITY)
     exact = RPHStriker(foam, MASS, VELOCITY, 1.4 * free.stop_front)
-    zones = 800 if effort.full else 400
+    zones = 1600 if effort.full else 800
     runs = [_run(modulus, exact.length, zones, 1.15 * exact.stop_time) for modulus in MODULI]
     _finite(table, effort, exact, runs[0])
     stops = np.array([crossing(run["time"], run["left_striker_velocity"]) for run in runs])

@@ -180,7 +180,7 @@ ABOUT = {
         "on the piston over the last third of the run, and vB that of nine profiles' medians."
     ),
     "pressure-step eph": (
-        "A constant pressure on a foam that hardens linearly: a linear plastic wave and no shock. Its plateau is "
+        "A constant pressure on E-P-H, which hardens linearly: a linear plastic wave and no shock. Its plateau is "
         "measured as a shock's; q spreads the wave as diffusion does, whose width is known in closed form."
     ),
 }
