@@ -111,30 +111,30 @@ class RPHStriker(MomentumStriker):
     @property
     def stop_front(self) -> float:
         """Length of column crushed when the striker has come to rest, m."""
-        return float(self._front_at(np.asarray(0.0)))
+        return float(self._front_after(np.asarray(self.impact_velocity)))
 
     @property
     def stop_distance(self) -> float:
         """Displacement of the striker when it has come to rest, m."""
-        return float(self._displacement_at(np.asarray(0.0)))
+        return float(self._displacement_after(np.asarray(self.impact_velocity)))
 
     @cached_property
     def end_time(self) -> float:
         """When the front reaches the back, s; infinite if it never does."""
         if self.stop_front <= self.length:
             return math.inf
-        last = bisect(lambda v: self._front_at(v) < self.length, 0.0, self.impact_velocity)
-        return float(self._time_at(last))
+        last = bisect(lambda loss: self._front_after(loss) > self.length, 0.0, self.impact_velocity)
+        return float(self._time_after(last))
 
     def history(self, t: ArrayLike) -> FrontHistory:
         """Displacement, velocity, front and stresses at times t (s)."""
         t = times(t, self.end_time, "then the front reaches the back")
-        velocity = bisect(lambda v: self._time_at(v) < t, np.zeros(t.shape), self.impact_velocity)
-        velocity = np.where(t >= self.stop_time, 0.0, np.where(t == 0.0, self.impact_velocity, velocity))
-        front = self._front_at(velocity)
+        loss = bisect(lambda loss: self._time_after(loss) > t, np.zeros(t.shape), self.impact_velocity)
+        loss = np.where(t >= self.stop_time, self.impact_velocity, np.where(t == 0.0, 0.0, loss))
+        velocity, front = self.impact_velocity - loss, self._front_after(loss)
         stress = np.where(t > self.stop_time, np.nan, self.material.shock_stress(velocity))
         left = self._striker_stress(stress, front)
-        return FrontHistory(self._displacement_at(velocity), velocity, front, stress, left)
+        return FrontHistory(self._displacement_after(loss), velocity, front, stress, left)
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; on the front, the state ahead."""
@@ -142,7 +142,8 @@ class RPHStriker(MomentumStriker):
         now, foam = self.history(t), self.material
         crushed = coordinate < now.front
         passed = np.where(crushed, coordinate, 0.0)
-        crossing = bisect(lambda v: self._front_at(v) < passed, np.zeros(passed.shape), self.impact_velocity)
+        loss = bisect(lambda loss: self._front_after(loss) > passed, np.zeros(passed.shape), self.impact_velocity)
+        crossing = self.impact_velocity - loss
         strain = np.where(crushed, foam.strain(crossing), 0.0)
         share = (self.mass + foam.density * passed) / (self.mass + foam.density * now.front)
         stress = np.where(crushed, now.front_stress * share, foam.plateau_stress)
@@ -154,35 +155,39 @@ class RPHStriker(MomentumStriker):
             np.where(crushed, foam.absorbed_energy(crossing), 0.0),
         )
 
-    def _moving_mass(self, velocity: Array) -> Array:
-        """M + rho0 X when the striker has slowed down to `velocity`."""
-        ratio = self.material.shock_stress(self.impact_velocity) / self.material.shock_stress(velocity)
-        drag = 0.5 * self.material.density * self.material.slowest_front * self._inverse_integral(velocity)
-        return self.mass * np.sqrt(ratio) * np.exp(drag)
+    # The unknown is the loss of velocity since the impact: nothing cancels at the start, where it vanishes.
 
-    def _inverse_integral(self, velocity: Array) -> Array:
-        """Integral of 1/shock_stress from `velocity` to the impact velocity."""
+    def _crushed_mass(self, loss: Array) -> Array:
+        """rho0 X when the striker has lost that much velocity."""
+        foam, velocity = self.material, self.impact_velocity - loss
+        excess = foam.density * loss * (self.impact_velocity + velocity + foam.slowest_front)
+        half_log = 0.5 * np.log1p(excess / foam.shock_stress(velocity))
+        drag = 0.5 * foam.density * foam.slowest_front * self._inverse_integral(loss)
+        return self.mass * np.expm1(half_log + drag)
+
+    def _inverse_integral(self, loss: Array) -> Array:
+        """Integral of 1/shock_stress over the velocities lost."""
         foam = self.material
-        middle, half = 0.5 * foam.slowest_front, self.impact_velocity - velocity
+        middle = 0.5 * foam.slowest_front
         square = foam.plateau_stress / foam.density - middle**2
         # atan or atanh of the difference in one fraction, so that nothing cancels where the discriminant vanishes
-        base = square + (velocity + middle) * (self.impact_velocity + middle)
+        base = square + (self.impact_velocity - loss + middle) * (self.impact_velocity + middle)
         root = math.sqrt(abs(square))
         if root < 1e-9 * middle:
-            return half / (base * foam.density)
-        inverse = np.arctan2(root * half, base) if square > 0.0 else np.arctanh(root * half / base)
+            return loss / (base * foam.density)
+        inverse = np.arctan2(root * loss, base) if square > 0.0 else np.arctanh(root * loss / base)
         return inverse / (root * foam.density)
 
-    def _front_at(self, velocity: Array) -> Array:
-        return (self._moving_mass(velocity) - self.mass) / self.material.density
+    def _front_after(self, loss: Array) -> Array:
+        return self._crushed_mass(loss) / self.material.density
 
-    def _time_at(self, velocity: Array) -> Array:
-        momentum = self.mass * self.impact_velocity - self._moving_mass(velocity) * velocity
-        return momentum / self.material.plateau_stress
+    def _time_after(self, loss: Array) -> Array:
+        taken = self.mass * loss - self._crushed_mass(loss) * (self.impact_velocity - loss)
+        return taken / self.material.plateau_stress
 
-    def _displacement_at(self, velocity: Array) -> Array:
+    def _displacement_after(self, loss: Array) -> Array:
         """Integral of v m/shock_stress over v; Gauss, since the integrand is analytic."""
-        velocity = np.asarray(velocity, dtype=float)[..., None]
-        half = 0.5 * (self.impact_velocity - velocity)
-        at = velocity + half * (_NODES + 1.0)
-        return np.sum(half * _WEIGHTS * at * self._moving_mass(at) / self.material.shock_stress(at), axis=-1)
+        half = 0.5 * np.asarray(loss, dtype=float)[..., None]
+        lost = half * (_NODES + 1.0)
+        velocity, mass = self.impact_velocity - lost, self.mass + self._crushed_mass(lost)
+        return np.sum(half * _WEIGHTS * velocity * mass / self.material.shock_stress(velocity), axis=-1)

@@ -2,7 +2,7 @@
 
 It assumes that the front absorbs no more than the quasi-static energy plateau*eD, and so does not conserve momentum.
 Source: Eqs. 14-19 of Harrigan, Reid & Seyed Yaghoubi 2010, doi:10.1016/j.ijimpeng.2009.03.011. The time follows
-from Eq. 17 by dt = du/v; with u = umax (1 - w^2) the integrand is sqrt(A - B w^2), elementary.
+from Eq. 17 by dt = du/v; with u = umax (1 - w^2) the integrand is sqrt(1 + b - b w^2), elementary.
 """
 
 import math
@@ -35,14 +35,15 @@ class EnergyBalanceStriker(RigidStriker):
     @property
     def stop_time(self) -> float:
         """When the striker comes to rest if the column does not lock fully before, s."""
-        return float(self._time_at(np.asarray(0.0)))
+        return float(self._time_at(np.asarray(1.0)))
 
     @property
     def locking_time(self) -> float:
         """When the front reaches the back, s; infinite if it never does."""
         if self.length >= self.critical_length:
             return math.inf
-        return float(self._time_at(np.asarray(math.sqrt(1.0 - self.length / self.critical_length))))
+        share = self.length / self.critical_length
+        return float(self._time_at(np.asarray(share / (1.0 + math.sqrt(1.0 - share)))))
 
     def velocity_at(self, displacement: ArrayLike) -> Array:
         """v after a displacement u (m), m/s (Eq. 17); 0 where it never gets that far."""
@@ -61,26 +62,24 @@ class EnergyBalanceStriker(RigidStriker):
         left_stress is what decelerates the striker, by Eq. 16.
         """
         t = times(t, self.locking_time, "then the column is fully locked")
-        root = bisect(lambda w: self._time_at(w) < t, np.zeros(t.shape), 1.0)
-        root = np.where(t >= self.stop_time, 0.0, np.where(t == 0.0, 1.0, root))
-        front = self.critical_length * (1.0 - root) * (1.0 + root)
+        loss = bisect(lambda loss: self._time_at(loss) > t, np.zeros(t.shape), 1.0)
+        loss = np.where(t >= self.stop_time, 1.0, np.where(t == 0.0, 0.0, loss))
+        front = self.critical_length * loss * (2.0 - loss)
         displacement = front * self.material.densification_strain
         stress = np.where(t > self.stop_time, np.nan, self.stress_at(displacement))
         left_stress = self._striker_stress(stress, front)
         return FrontHistory(displacement, self.velocity_at(displacement), front, stress, left_stress)
 
-    def _time_at(self, root: Array) -> Array:
-        """Time at which u = umax (1 - root^2)."""
-        longest = self.critical_length * self.material.densification_strain
+    def _time_at(self, loss: Array) -> Array:
+        """Time at which u = umax (1 - w^2), w = 1 - loss: nothing cancels at the start, where the loss vanishes."""
         b = self.material.density * self.critical_length / self.mass
-        return (
-            2.0 * longest / self.impact_velocity * (_ellipse(1.0 + b, b, np.asarray(1.0)) - _ellipse(1.0 + b, b, root))
-        )
-
-
-def _ellipse(a: float, b: float, w: Array) -> Array:
-    """Integral of sqrt(a - b w^2) from 0 to w."""
-    return 0.5 * (w * np.sqrt(a - b * w**2) + a / math.sqrt(b) * np.arcsin(w * math.sqrt(b / a)))
+        w, crushed = 1.0 - loss, loss * (2.0 - loss)
+        root = np.sqrt(1.0 + b * crushed)
+        # Integral of sqrt(1 + b - b w^2) from w to 1; both differences are written as products.
+        product = crushed * (1.0 - b * w**2) / (1.0 + w * root)
+        angle = np.arctan2(math.sqrt(b) * (1.0 + b) * crushed / (root + w), root + b * w)
+        path = 0.5 * (product + (1.0 + b) / math.sqrt(b) * angle)
+        return 2.0 * self.critical_length * self.material.densification_strain / self.impact_velocity * path
 
 
 def energy_balance_stress(material: RPPL, velocity: ArrayLike) -> Array:

@@ -14,6 +14,7 @@ from hydro1d.analytic import (
     Elastic,
     ElasticLayer,
     ElasticLayers,
+    EnergyBalanceStriker,
     ExponentialPulse,
     Gas,
     Noh,
@@ -105,6 +106,24 @@ def test_outside_is_refused_by_its_first_value(solution):
     if math.isfinite(getattr(found, "end_time", math.inf)):
         with pytest.raises(ValueError, match=r"^t = .* is not allowed: t must be within .* s \(.*\)$"):
             found(0.1, 1.001 * found.end_time)
+
+
+@pytest.mark.parametrize("share", [1e-12, 1e-10, 1e-8])
+@pytest.mark.parametrize("mass", [1e-3, 20.0, 1e6])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda mass: RPPLStriker(RIGID, mass, 120.0),
+        lambda mass: EnergyBalanceStriker(RIGID, mass, 120.0),
+        lambda mass: RPHStriker(HARDENING, mass, 120.0),
+    ],
+)
+def test_a_moment_after_the_impact(make, mass, share):
+    """The striker has gone v0 t, and what little it has slowed down is known to as many digits."""
+    striker = make(mass)
+    t = share * striker.stop_time
+    now = striker.history(t)
+    assert float(now.displacement) == pytest.approx(striker.impact_velocity * t, rel=10.0 * share + 1e-9)
 
 
 @pytest.mark.parametrize("excess", [1e-12, 1e-6, 1.0, 1e4])
