@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -19,6 +19,38 @@ def path(text: str) -> Path:
     return Path(text)
 
 
+def one_of(words: Iterable[str]) -> Callable[[str], str]:
+    """The `type` of an argument with `choices`: a word that is none of them is answered with the nearest one."""
+    known = list(words)
+
+    def checked(text: str) -> str:
+        if text not in known:
+            from hydro1d.deck.messages import suggestion
+
+            listed = ", ".join(known)
+            raise argparse.ArgumentTypeError(f"{text[:80]!r} is not one of {listed}{suggestion(text, known)}")
+        return text
+
+    return checked
+
+
+def refuse_result(target: Path) -> Path:
+    """The path, if no result lies there: text must not be written over what may have taken hours to calculate.
+
+    Raises FileProblem.
+    """
+    from hydro1d.errors import FileProblem
+
+    try:
+        with open(target, "rb") as file:
+            start = file.read(8)
+    except OSError:
+        return target  # nothing there, or nothing that could be lost
+    if start == b"\x89HDF\r\n\x1a\n":
+        raise FileProblem(f"cannot write {target}: a result (HDF5) is there and would be lost; choose another name")
+    return target
+
+
 def add_deck(parser: argparse.ArgumentParser) -> None:
     """The deck and what overrides its values."""
     parser.add_argument("deck", metavar="DECK", type=path, help="the deck, a TOML file")
@@ -26,6 +58,13 @@ def add_deck(parser: argparse.ArgumentParser) -> None:
         "--set", metavar="PATH=VALUE", action="append", default=[], dest="overrides",
         help="put a value in place of the deck's, for example layer[0].zones=2000; can be repeated",
     )  # fmt: skip
+
+
+def positive(text: str) -> int:
+    """The `type` of an argument that is an integer from 1 on."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text[:80]!r} is not an integer from 1 on")
+    return int(text)
 
 
 def figure(value: float, unit: str = "") -> str:
@@ -51,13 +90,24 @@ def progress_bar(quiet: bool) -> Iterator[Callable[[float], None] | None]:
         return
     from tqdm import tqdm
 
+    from hydro1d.kernels.build import announcing
+
     layout = "{percentage:3.0f}% {bar} {desc}{elapsed}, {remaining} left"
     with tqdm(total=1.0, bar_format=layout, leave=False, file=sys.stderr) as bar:
+        compiled: list[str] = []
+
+        def compiling(kernel: str) -> None:
+            compiled.append(kernel)
+            bar.set_description_str("compiling, once (some seconds) … ")
 
         def show(share: float) -> None:
+            if compiled:  # that time says nothing about what is left
+                compiled.clear()
+                bar.reset()
             time, cycles = getattr(share, "time", None), getattr(share, "cycles", 0)
             if time is not None:
                 bar.set_description_str(f"t = {figure(time, 's')}, {cycles} cycles, ", refresh=False)
             bar.update(min(max(share, 0.0), 1.0) - bar.n)
 
-        yield show
+        with announcing(compiling):
+            yield show

@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--material", metavar="NAME", help="which material; default: that of the first layer")
     parser.add_argument("--strain", metavar="STRAIN", type=float, help="largest strain to draw")
     parser.add_argument("-o", "--output", metavar="FILE", type=Path, help="default: DECK-MATERIAL.png, here")
-    parser.add_argument("--dpi", type=int, default=150, help="dots per inch, default 150")
+    parser.add_argument("--dpi", type=_common.positive, default=150, help="dots per inch, default 150")
 
 
 def run(args: argparse.Namespace) -> None:

@@ -17,14 +17,20 @@ INTERVAL = 1.0  # s of wall time between two messages of progress
 
 
 class JsonLog:
-    """Writes {"event": "start" | "progress" | "done" | "error", …}, values in SI, to a file or (-) standard output."""
+    """Writes {"event": "start", …} and so on, values in SI, to a file or (-) standard output.
+
+    Events: start, compiling (for each kernel that is not in the cache), progress, done or error.
+    """
 
     def __init__(self, target: Path) -> None:
+        from hydro1d.cli._common import refuse_result
         from hydro1d.errors import FileProblem
 
         self._began = self._last = time.monotonic()
         self.on_standard_output = str(target) == "-"
         try:
+            if not self.on_standard_output:
+                refuse_result(target)
             file = None if self.on_standard_output else open(target, "w", encoding="utf-8")  # noqa: SIM115
         except OSError as error:
             raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
@@ -42,6 +48,10 @@ class JsonLog:
         """What is about to be run."""
         zones = sum(layer.zones for layer in deck.layers)
         self.write("start", title=deck.title, output=str(output), zones=zones, end_time=deck.time.end)
+
+    def compiling(self, what: str) -> None:
+        """A kernel that is compiled now; the next run finds it in the cache."""
+        self.write("compiling", what=what)
 
     def progress(self, share: float) -> None:
         """How far, once every `INTERVAL`."""

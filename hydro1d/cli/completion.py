@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import NamedTuple
 
+from hydro1d.cli import _common
+
 SHELLS = ("bash", "zsh", "fish")
 
 
@@ -24,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "zsh:   hydro1d completion zsh > a folder of $fpath, as _hydro1d\n"
         "fish:  hydro1d completion fish > ~/.config/fish/completions/hydro1d.fish"
     )
-    parser.add_argument("shell", choices=SHELLS)
+    parser.add_argument("shell", choices=SHELLS, type=_common.one_of(SHELLS))
 
 
 def run(args: argparse.Namespace) -> None:

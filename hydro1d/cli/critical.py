@@ -11,6 +11,8 @@ from hydro1d.cli import _common
 if TYPE_CHECKING:
     from hydro1d.sweep import Critical
 
+SPACINGS = ("linear", "log")
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d critical``."""
@@ -31,7 +33,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=5,
         help="values over the whole bracket that check for a single flip (5)",
     )
-    add("--spacing", choices=("linear", "log"), default="linear", help="how these values are spread")
+    add(
+        "--spacing",
+        choices=SPACINGS,
+        type=_common.one_of(SPACINGS),
+        default="linear",
+        help="how these values are spread",
+    )
     add("--along", metavar="PATH", help="a second key: trace the boundary along it")
     add("--values", metavar="LIST", help='its values: "2 MPa, 3 MPa" or FIRST:LAST:COUNT')
     add("--threads", metavar="N", type=int, help="points at a time; default: the processors there are")

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from hydro1d.cli import _common
+
 if TYPE_CHECKING:
     from hydro1d.store import Run
 
@@ -19,6 +21,17 @@ KINDS = {
     "compare": "several runs in the same axes",
     "animate": "a film of the profiles (GIF; MP4 with ffmpeg)",
 }
+TAKES = {
+    "quantity": ("profiles", "xt", "history", "compare", "animate"),
+    "time": ("profiles", "compare"),
+    "frame": ("profiles", "xt", "animate"),
+    "zone": ("hugoniot",),
+    "deck": ("overview", "hugoniot"),
+    "frames": ("animate",),
+    "fps": ("animate",),
+}
+FORMATS = ("png", "svg", "pdf", "gif", "mp4")
+FRAMES = ("lagrangian", "laboratory")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -28,7 +41,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = f"kinds:\n{kinds}\n\nWithout a kind: overview; compare if several runs are given."
     parser.add_argument("words", metavar="RUN.h5 | KIND", nargs="+", help="results, and the kind of figure")
     parser.add_argument("-o", "--output", metavar="FILE", type=Path, help="default: RUN-KIND.png, here")
-    parser.add_argument("--format", choices=("png", "svg", "pdf"), help="of figures with default names")
+    parser.add_argument(
+        "--format", choices=FORMATS, type=_common.one_of(FORMATS),
+        help="with default names: png, svg or pdf for figures, gif or mp4 for films",
+    )  # fmt: skip
     parser.add_argument(
         "-q", "--quantity", metavar="NAME", action="append", default=[],
         help="what to draw (stress, strain, velocity, right_stress, probes/strain …); repeat or separate by commas",
@@ -37,12 +53,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-t", "--time", metavar="TIME", action="append", default=[],
         help='times of profiles, "1.5 ms"; repeat or separate by commas',
     )  # fmt: skip
-    parser.add_argument("--frame", choices=("lagrangian", "laboratory"), default="lagrangian", help="where things are")
+    parser.add_argument(
+        "--frame", choices=FRAMES, type=_common.one_of(FRAMES), help="where things are; default lagrangian"
+    )
     parser.add_argument("--zone", metavar="N", type=int, action="append", help="zone whose path to draw; repeat")
     parser.add_argument("--deck", metavar="DECK", type=Path, help="where to take laws of your own from")
-    parser.add_argument("--dpi", type=_positive, default=150, help="dots per inch, default 150")
-    parser.add_argument("--frames", type=_positive, default=100, help="most frames of a film, default 100")
-    parser.add_argument("--fps", type=_positive, default=15, help="frames a second, default 15")
+    parser.add_argument("--dpi", type=_common.positive, default=150, help="dots per inch, default 150")
+    parser.add_argument("--frames", type=_common.positive, help="most frames of a film, default 100")
+    parser.add_argument("--fps", type=_common.positive, help="frames a second, default 15")
 
 
 def run(args: argparse.Namespace) -> None:
@@ -60,6 +78,7 @@ def run(args: argparse.Namespace) -> None:
     kind = kinds[0] if kinds else "compare" if len(runs) > 1 else "overview"
     if len(runs) > 1 and kind != "compare":
         raise DeckError(f"{kind} draws one run; compare draws several")
+    _refuse_idle_options(kind, args)
     print(_DRAW.get(kind, _figure)(kind, args, runs))
 
 
@@ -70,6 +89,15 @@ def _hint_at_kind(word: str) -> None:
     if "." not in word and "/" not in word and not Path(word).exists():
         hint = suggestion(word, list(KINDS))
         raise DeckError(f"{word[:80]!r} is neither a file nor a kind of figure{hint}; kinds: {', '.join(KINDS)}")
+
+
+def _refuse_idle_options(kind: str, args: argparse.Namespace) -> None:
+    """An option that this kind of figure would ignore is a misunderstanding."""
+    from hydro1d.errors import DeckError
+
+    for option, kinds in TAKES.items():
+        if getattr(args, option) and kind not in kinds:
+            raise DeckError(f"{kind} takes no --{option}; it is for {', '.join(kinds)}")
 
 
 def _figure(kind: str, args: argparse.Namespace, runs: list[Run]) -> Path:
@@ -83,34 +111,28 @@ def _figure(kind: str, args: argparse.Namespace, runs: list[Run]) -> Path:
 def _animate(kind: str, args: argparse.Namespace, runs: list[Run]) -> Path:
     from hydro1d import plot
 
-    options: dict[str, Any] = {"frames": args.frames, "fps": args.fps, "frame": args.frame, "dpi": min(args.dpi, 90)}
-    if args.quantity:
-        options["quantities"] = _list(args.quantity)
-    return plot.animate(runs[0], _target(kind, args, runs, "gif"), **options)
+    given = {"frames": args.frames, "fps": args.fps, "frame": args.frame, "quantities": _list(args.quantity)}
+    options = {name: value for name, value in given.items() if value}
+    return plot.animate(runs[0], _target(kind, args, runs, args.format or "gif"), dpi=min(args.dpi, 90), **options)
 
 
 _DRAW: dict[str, Callable[[str, argparse.Namespace, list[Run]], Path]] = {"animate": _animate}
 
 
 def _options(kind: str, args: argparse.Namespace) -> dict[str, Any]:
-    """Arguments of the function that draws; a figure takes only those that mean something to it."""
+    """Arguments of the function that draws."""
     options: dict[str, Any] = {}
     names, times = _list(args.quantity), _times(args.time)
     if names and kind == "xt":
         options["quantity"] = _one(names, "--quantity", kind)
-    elif names and kind in ("profiles", "history", "compare"):
+    elif names:
         options["quantities"] = names
     if times and kind == "compare":
         options["time"] = _one(times, "--time", kind)
-    elif times and kind == "profiles":
+    elif times:
         options["times"] = times
-    if kind in ("profiles", "xt"):
-        options["frame"] = args.frame
-    if kind in ("hugoniot", "overview"):
-        options["deck"] = args.deck
-    if kind == "hugoniot":
-        options["zones"] = args.zone
-    return options
+    given = {"frame": args.frame, "deck": args.deck, "zones": args.zone}
+    return options | {name: value for name, value in given.items() if value is not None}
 
 
 def _target(kind: str, args: argparse.Namespace, runs: list[Run], ending: str) -> Path:
@@ -148,10 +170,3 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def _positive(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError("must be 1 at least")
-    return number

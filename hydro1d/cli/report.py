@@ -15,9 +15,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Write the page and say where it is."""
+    from hydro1d.errors import DeckError
     from hydro1d.store import open_run
 
+    target = args.output or Path(args.result.stem + ".html")
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise DeckError(f"{target}: a report's name ends in .html")
     result = open_run(args.result)
     from hydro1d.report import write_report
 
-    print(write_report(result, args.output or Path(args.result.stem + ".html"), args.deck))
+    print(write_report(result, target, args.deck))

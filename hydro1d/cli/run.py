@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from hydro1d.deck import Deck
+    from hydro1d.openings import Openings
     from hydro1d.store import Run
 
 
@@ -43,7 +44,10 @@ def run(args: argparse.Namespace) -> None:
     check_target(output)
     result = (_calculate if args.log_json is None else _logged)(args, deck, output)
     if not args.quiet and str(args.log_json) != "-":
-        print("\n".join(summary(deck, result, output)))
+        from hydro1d.openings import MOST_VALUES, find_openings
+
+        few = len(result.time) * len(result["zone"]) <= MOST_VALUES  # else reading them back would take long
+        print("\n".join(summary(deck, result, output, find_openings(result, deck) if few else None)))
 
 
 def _calculate(args: argparse.Namespace, deck: Deck, output: Path, told: Callable[[float], None] | None = None) -> Run:
@@ -64,11 +68,13 @@ def _calculate(args: argparse.Namespace, deck: Deck, output: Path, told: Callabl
 def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:
     """Run the deck and keep a log for other programs."""
     from hydro1d.cli._log import JsonLog
+    from hydro1d.kernels.build import announcing
 
     log = JsonLog(args.log_json)
     try:
         log.start(deck, output)
-        result = _calculate(args, deck, output, log.progress)
+        with announcing(log.compiling):
+            result = _calculate(args, deck, output, log.progress)
         log.done(result, output)
         return result
     except (Exception, KeyboardInterrupt) as error:
@@ -78,7 +84,7 @@ def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:
         log.close()
 
 
-def summary(deck: Deck, result: Run, output: Path) -> list[str]:
+def summary(deck: Deck, result: Run, output: Path, opened: Openings | None = None) -> list[str]:
     """Lines that answer first what a user runs the code for: is the load enhanced, is the column crushed."""
     history = result.history
     lines = [f"{result.title}"] if result.title else []
@@ -86,6 +92,8 @@ def summary(deck: Deck, result: Run, output: Path) -> list[str]:
     uncrushed = float(history["uncrushed_fraction"][-1])
     if uncrushed == uncrushed:
         lines.append("column: fully crushed" if uncrushed <= 0.0 else f"column: {100 * uncrushed:.4g} % is not crushed")
+    if opened is not None:
+        lines.append(_openings(opened))
     cycles, wall = int(result.attributes["cycles"]), float(result.attributes["wall_seconds"])
     end = _common.figure(float(history["time"][-1]), "s")
     error = abs(history["energy_error"]).max()
@@ -93,6 +101,20 @@ def summary(deck: Deck, result: Run, output: Path) -> list[str]:
         f"{_common.count(cycles, 'cycle')} to t = {end} in {_common.figure(wall, 's')}; energy error {error:.1e}"
     )
     return [*lines, f"result: {output}"]
+
+
+def _openings(opened: Openings) -> str:
+    """What came apart, as far as the stored profiles show."""
+    low, high, first = (
+        _common.figure(opened.low, "m"),
+        _common.figure(opened.high, "m"),
+        _common.figure(opened.first, "s"),
+    )
+    closed = "all closed again" if opened.still == 0 else f"{opened.still} still open"
+    text = f"opened: {opened.zones} of {opened.total} zones, first seen at {first}, X from {low} to {high}; {closed} at the end"
+    if opened.stretched:
+        text += f"; {opened.stretched} stretched beyond the initial length, to {opened.widest:.3g} times it at most"
+    return text
 
 
 def _loads(deck: Deck, left: float, right: float) -> str:

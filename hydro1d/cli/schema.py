@@ -22,4 +22,4 @@ def run(args: argparse.Namespace) -> None:
     if args.output is None:
         print(text, end="")
         return
-    args.output.write_text(text, encoding="utf-8")
+    _common.refuse_result(args.output).write_text(text, encoding="utf-8")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from hydro1d.cli import _common
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d verify``."""
@@ -25,12 +27,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the suite; 1 if any row fails."""
+    from hydro1d.deck.messages import suggestion
     from hydro1d.errors import DeckError
     from hydro1d.verify.suite import chosen
 
     cases = chosen(args.only)
     if not cases:
-        raise DeckError(f"no case is called {' or '.join(args.only)}; --list names them")
+        hint = suggestion(args.only[0], [case.name for case in chosen([])])
+        raise DeckError(f"no case is called {' or '.join(args.only)}{hint}; --list names them")
+    for path in filter(None, (args.json, args.html, args.markdown)):
+        _common.refuse_result(path)  # before anything is measured
     if args.workers is not None and args.workers < 1:
         raise DeckError(f"--workers must be at least 1, not {args.workers}")
     if args.list:
@@ -71,14 +77,15 @@ def _write(args: argparse.Namespace, reports: list, rows: list, seconds: float) 
     import json
 
     if args.json is not None:
-        args.json.write_text(
-            json.dumps([row.plain() for row in rows], indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
-        )
+        text = json.dumps([row.plain() for row in rows], indent=1, ensure_ascii=False) + "\n"
+        _common.refuse_result(args.json).write_text(text, encoding="utf-8")
     if args.html is not None:
         from hydro1d.verify.page import html_page
 
-        args.html.write_text(html_page(reports, rows, full=args.full, seconds=seconds), encoding="utf-8")
+        page = html_page(reports, rows, full=args.full, seconds=seconds)
+        _common.refuse_result(args.html).write_text(page, encoding="utf-8")
     if args.markdown is not None:
         from hydro1d.verify.markdown import markdown_page
 
-        args.markdown.write_text(markdown_page(reports, rows, full=args.full, seconds=seconds), encoding="utf-8")
+        page = markdown_page(reports, rows, full=args.full, seconds=seconds)
+        _common.refuse_result(args.markdown).write_text(page, encoding="utf-8")

@@ -17,7 +17,7 @@ import stat
 import sys
 import tempfile
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import CodeType, FunctionType
 from typing import Any
@@ -31,6 +31,7 @@ _CTYPES = {"p": ctypes.c_void_p, "q": ctypes.c_void_p, "i": ctypes.c_int64}
 _lock = threading.Lock()
 _engines: list[Any] = []  # keeps the machine code alive
 _addresses: dict[str, int] = {}
+_listeners: list[Callable[[str], None]] = []
 _target: Any = None
 
 
@@ -50,10 +51,22 @@ def address(name: str, signature: str, content: str, make: Callable[[], Callable
         if key not in _addresses:
             code = _read(key)
             if code is None:
+                for listener in _listeners:
+                    listener(name)
                 code = _compile(make(), signature)
                 _write(key, code)
             _addresses[key] = _load(code)
         return _addresses[key]
+
+
+@contextlib.contextmanager
+def announcing(listener: Callable[[str], None]) -> Iterator[None]:
+    """Tell ``listener`` the name of every kernel that is about to be compiled, which takes seconds."""
+    _listeners.append(listener)
+    try:
+        yield
+    finally:
+        _listeners.remove(listener)
 
 
 def function(where: int, signature: str) -> Callable:

@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, FileProblem
 from hydro1d.plot._units import Scale, scale_for, words
 
@@ -134,7 +135,8 @@ def profile_quantity(run: Run, name: str) -> np.ndarray:
         if run.describe(name).dimensions in (("time", "zone"), ("time", "node")):
             return values
     there = [key for key in run if run.describe(key).dimensions[:1] == ("time",) and key != "time"]
-    raise FileProblem(f"{name_of(run)} has no profiles of {name[:80]!r}; it has {', '.join(there) or 'none'}")
+    hint = "; the history has it" if name in run.history else suggestion(name, there)
+    raise FileProblem(f"{name_of(run)} has no profiles of {name[:80]!r}{hint}; it has {', '.join(there) or 'none'}")
 
 
 def nearest(time: np.ndarray, wanted: Sequence[float], name: str) -> list[int]:

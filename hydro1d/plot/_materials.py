@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, Hydro1dError
 
 if TYPE_CHECKING:
@@ -114,5 +115,6 @@ def law_of_deck(deck: Deck, material: str | None = None) -> tuple[str, Law]:
     if material is None:
         return next(iter(laws.items()))
     if material not in laws:
-        raise DeckError(f"no layer of material {material[:80]!r}; there are {', '.join(laws)}")
+        hint = suggestion(material, list(laws))
+        raise DeckError(f"no layer of material {material[:80]!r}{hint}; there are {', '.join(laws)}")
     return material, laws[material]

@@ -17,6 +17,8 @@ from hydro1d.cli import _common, main
 from hydro1d.cli.run import summary
 from hydro1d.deck import load_deck
 from hydro1d.errors import BreakdownError, FileProblem, Interrupted
+from hydro1d.kernels import build
+from hydro1d.openings import Openings
 
 DECK = """\
 title = "A short run"
@@ -273,7 +275,7 @@ def test_run_for_real(deck, capsys, tmp_path):
 
 
 def test_run_hands_everything_over(deck, calculated):
-    arguments = ["-o", "x.h5", "--restart", "c.h5", "--force", "--set", "layer.0.zones=7", "--set", "title=new"]
+    arguments = ["-o", "x.h5", "--restart", "c.h5", "--force", "--set", "layer.0.zones=7", "--set", "title=new", "--quiet"]
     assert main(["run", deck, *arguments]) == 0
     (call,) = calculated.calls
     assert (call.deck.layers[0].zones, call.deck.title) == (7, "new")
@@ -360,6 +362,108 @@ def test_summary_answers_the_question_first(text, result, lines):
     assert found[0] == "A short run"
     assert lines[0] in found[1]
     assert found[-2:] == ["123 cycles to t = 1 ms in 20 ms; energy error 3.0e-15", "result: x.h5"]
+
+
+def test_summary_names_what_opened():
+    opened = Openings(322, 1000, 0, 1.568e-3, 0.0, 0.589, 5, 89.36)
+    line = summary(load_deck(DECK), outcome(), Path("x.h5"), opened)[3]
+    assert line == (
+        "opened: 322 of 1000 zones, first seen at 1.568 ms, X from 0 m to 589 mm; all closed again at the end; "
+        "5 stretched beyond the initial length, to 89.4 times it at most"
+    )
+    still = summary(load_deck(DECK), outcome(), Path("x.h5"), opened._replace(still=7, stretched=0))[3]
+    assert still.endswith("; 7 still open at the end")
+
+
+def test_compiling_is_said_on_a_terminal_and_to_the_log_and_not_when_quiet(deck, tmp_path):
+    """A cache of its own, so that everything is compiled in the first run and nothing in the second."""
+    cache = {"HYDRO1D_CACHE_DIR": str(tmp_path / "cache")}
+    soft = ["--set", 'material.foam={law="elastic", density=50, modulus=2e7}']
+    first = command("run", deck, *soft, "--log-json", "log.json", **cache)
+    events = [json.loads(line) for line in (tmp_path / "log.json").read_text().splitlines()]
+    kinds = [event["event"] for event in events]
+    assert (first.returncode, first.stderr) == (0, "")
+    assert kinds[0] == "start" and kinds[1] == "compiling" and kinds[-1] == "done"
+    assert {"march"} < {event["what"] for event in events if event["event"] == "compiling"}
+    command("run", deck, *soft, "--log-json", "log.json", **cache)
+    assert "compiling" not in (tmp_path / "log.json").read_text()
+
+
+def test_the_bar_says_that_it_compiles_and_begins_anew_after_it(monkeypatch, capsys):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setattr(build, "_read", lambda key: None)
+    monkeypatch.setattr(build, "_write", lambda key, code: None)
+    monkeypatch.setattr(build, "_compile", lambda kernel, signature: b"")
+    monkeypatch.setattr(build, "_load", lambda code: 0)
+    with _common.progress_bar(quiet=False) as progress:
+        build.address("some kernel", "i", "of this test", lambda: None)
+        said = capsys.readouterr().err
+        time.sleep(1.1)
+        progress(0.5)
+        time.sleep(0.2)
+        progress(0.75)
+    assert "compiling, once" in said
+    assert "00:01" not in capsys.readouterr().err.split("50%")[-1]
+    build.address("another kernel", "i", "of this test", lambda: None)
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["schema", "-o"],
+        ["verify", "--only", "noh", "--json"],
+        ["verify", "--only", "noh", "--html"],
+        ["verify", "--only", "noh", "--markdown"],
+        ["run", "decks/short.toml", "--log-json"],
+    ],
+)
+def test_a_result_is_never_overwritten_with_text(deck, capsys, arguments, tmp_path):
+    precious = b"\x89HDF\r\n\x1a\n and what took a week"
+    (tmp_path / "precious.h5").write_bytes(precious)
+    assert main([*arguments, "precious.h5"]) == 4
+    assert "precious.h5: a result (HDF5) is there" in capsys.readouterr().err
+    assert (tmp_path / "precious.h5").read_bytes() == precious
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["completion", "zhs"], "did you mean zsh"),
+        (["plot", "x.h5", "--frame", "labratory"], "did you mean laboratory"),
+        (["plot", "x.h5", "--format", "jpg"], "png, svg, pdf, gif, mp4; did you mean png"),
+        (["plot", "x.h5", "--dpi", "0"], "'0' is not an integer from 1 on"),
+        (["laws", "plot", "x.toml", "--dpi", "0"], "'0' is not an integer from 1 on"),
+        (["verify", "--only", "nho"], "did you mean noh"),
+        (["new", "blats"], "did you mean blast"),
+        (["laws", "trilinaer"], "did you mean trilinear"),
+        (
+            ["critical", "x.toml", "--key", "a", "--from", "1", "--to", "2", "--outcome", "enhnced"],
+            "did you mean enhanced",
+        ),
+        (
+            [
+                "critical",
+                "x.toml",
+                "--key",
+                "a",
+                "--from",
+                "1",
+                "--to",
+                "2",
+                "--outcome",
+                "enhanced",
+                "--spacing",
+                "lin",
+            ],
+            "did you mean linear",
+        ),
+    ],
+)
+def test_the_nearest_word_is_suggested(deck, capsys, arguments, words):
+    (Path.cwd() / "x.toml").write_text(DECK)
+    assert main(arguments) == 2
+    assert words in capsys.readouterr().err
 
 
 def test_progress_is_shown_on_a_terminal_only(monkeypatch, capsys):

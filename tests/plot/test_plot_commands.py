@@ -41,6 +41,15 @@ def test_plot_kinds(result, here, capsys, options):
     assert (here / capsys.readouterr().out.strip()).stat().st_size > 1000
 
 
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
+def test_film_with_ffmpeg(result, here, capsys):
+    assert main(["plot", str(result), "animate", "--frames", "7", "--fps", "5", "--format", "mp4", "--dpi", "60"]) == 0
+    assert capsys.readouterr().out == "coarse-animate.mp4\n"
+    ask = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=codec_name,nb_read_frames,r_frame_rate"]
+    told = subprocess.run([*ask, "-of", "csv=p=0", "coarse-animate.mp4"], capture_output=True, text=True, check=True)
+    assert told.stdout.strip() == "h264,5/1,7"
+
+
 def test_several_runs_are_compared(result, here, capsys):
     shutil.copy(result, "b.h5")
     assert main(["plot", str(result), "b.h5", "-o", "c.png", "--dpi", "40"]) == 0
@@ -61,6 +70,12 @@ def test_several_runs_are_compared(result, here, capsys):
         (["{}", "profiles", "-t", "2 bananas"], 2, "--time"),
         (["{}", "-o", "a.bmp"], 2, ".svg"),
         (["{}", "history", "-q", "nothing"], 4, "There is"),
+        (["{}", "xt", "-q", "sterss"], 4, "did you mean stress"),
+        (["{}", "profiles", "-q", "right_stress"], 4, "the history has it"),
+        (["{}", "-q", "strain"], 2, "overview takes no --quantity; it is for profiles, xt"),
+        (["{}", "hugoniot", "-t", "1 ms"], 2, "hugoniot takes no --time"),
+        (["{}", "xt", "--fps", "3"], 2, "xt takes no --fps; it is for animate"),
+        (["{}", "xt", "--format", "gif"], 2, ".svg"),
     ],
 )
 def test_plot_says_what_is_wrong(result, here, capsys, words, code, message):
