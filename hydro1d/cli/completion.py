@@ -16,6 +16,7 @@ class Option(NamedTuple):
     words: tuple[str, ...]
     help: str
     choices: tuple[str, ...]
+    takes_value: bool = False
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,7 +57,7 @@ def grammar() -> dict[str, tuple[str, list[Option]]]:
 def _option(action: argparse.Action) -> Option:
     choices = tuple(str(choice) for choice in action.choices) if action.choices else ()
     text = action.help if action.help and action.help != argparse.SUPPRESS else ""
-    return Option(tuple(action.option_strings), text.replace("%%", "%"), choices)
+    return Option(tuple(action.option_strings), text.replace("%%", "%"), choices, action.nargs != 0)
 
 
 def _cases() -> tuple[str, ...]:
@@ -113,7 +114,11 @@ _hydro1d() {{
 {cases}
     esac
 }}
-compdef _hydro1d hydro1d
+if [[ "$funcstack[1]" == _hydro1d ]]; then  # loaded from $fpath by the first completion, which is still waiting
+    _hydro1d "$@"
+else
+    compdef _hydro1d hydro1d
+fi
 """
 
 
@@ -124,6 +129,7 @@ def _fish(commands: dict[str, tuple[str, list[Option]]]) -> str:
         for option in options:
             given = [f"-l {word[2:]}" if word.startswith("--") else f"-s {word[1:]}" for word in option.words]
             values = [f"-a '{' '.join(option.choices)}'"] if option.choices else []
+            values += ["-x" if option.choices else "-r"] if option.words and option.takes_value else []
             if given or values:
                 about = f"-d '{_quoted(option.help)}'" if option.help else ""
                 where = f"-n '__fish_seen_subcommand_from {name}'"

@@ -163,6 +163,50 @@ def test_bash_completion_works(capsys, here):
     assert done.stdout.split() == ["hugoniot"]
 
 
+ZSH = """
+autoload -U compinit && compinit -D
+compadd() { shift; print -l -- "$@" }; _files() { }; _describe() { print -l -- ${(P)2} }
+words=(hydro1d plot hug) CURRENT=3
+fpath=(. $fpath); autoload -Uz _hydro1d; _hydro1d
+print -- ---
+words=(hydro1d p) CURRENT=2; _hydro1d
+print -- ---
+unfunction _hydro1d; source ./_hydro1d; print $_comps[hydro1d]
+"""
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="needs zsh")
+def test_zsh_completion_works(capsys, here):
+    main(["completion", "zsh"])
+    (here / "_hydro1d").write_text(capsys.readouterr().out)
+    done = subprocess.run(["zsh", "-f", "-c", ZSH], capture_output=True, text=True, timeout=60)
+    assert done.stderr == ""
+    options, commands, registered = (part.split("\n") for part in done.stdout.split("---\n"))
+    assert {"hugoniot", "animate", "--frame", "--quantity"} <= {*options}
+    assert any(line.startswith("plot:draw figures of a run") for line in commands)
+    assert registered[0] == "_hydro1d"
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="needs fish")
+@pytest.mark.parametrize(
+    ("typed", "offered"),
+    [
+        ("hydro1d pl", "plot\tdraw figures"),
+        ("hydro1d plot hug", "hugoniot"),
+        ("hydro1d plot --frame lab", "laboratory"),
+        ("hydro1d new bl", "blast"),
+        ("hydro1d run --qui", "--quiet\tno progress"),
+    ],
+)
+def test_fish_completion_works(capsys, here, typed, offered):
+    main(["completion", "fish"])
+    (here / "hydro1d.fish").write_text(capsys.readouterr().out)
+    command = f"source hydro1d.fish; complete -C '{typed}'"
+    done = subprocess.run(["fish", "--no-config", "-c", command], capture_output=True, text=True, timeout=60)
+    assert done.stderr == ""
+    assert any(line.startswith(offered) for line in done.stdout.splitlines()), done.stdout
+
+
 def test_log_json(here, capsys):
     main(["new", "piston"])
     capsys.readouterr()

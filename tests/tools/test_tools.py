@@ -130,6 +130,23 @@ def test_to_xdmf_points_at_what_is_there(result, tmp_path):
     assert slab == ["3", "0", "1", "1", "1", "100"]
 
 
+def test_the_readers_of_paraview_and_visit_open_the_xdmf(result, tmp_path):
+    vtk = pytest.importorskip("vtk")
+    assert tool("to_xdmf", result, "-o", tmp_path / "a.xdmf").returncode == 0
+    reader = vtk.vtkXdmfReader()
+    reader.SetFileName(str(tmp_path / "a.xdmf"))
+    reader.UpdateInformation()
+    steps = reader.GetExecutive().GetOutputInformation(0).Get(vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+    reader.UpdateTimeStep(steps[7])
+    grid = reader.GetOutputDataObject(0)
+    with h5py.File(result, "r") as file:
+        assert np.allclose(steps, file["time"][:])
+        stress, position = file["stress"][7], file["position"][7]
+    assert (grid.GetNumberOfPoints(), grid.GetNumberOfCells()) == (101, 100)
+    assert [grid.GetCellData().GetArray("stress").GetTuple1(k) for k in range(100)] == pytest.approx(stress)
+    assert [grid.GetPoint(k)[0] for k in range(101)] == pytest.approx(position)
+
+
 def test_compare_runs(result, tmp_path):
     assert tool("compare_runs", result, result).stdout.endswith("the same\n")
     other = tmp_path / "other.h5"
