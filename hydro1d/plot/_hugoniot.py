@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 PATHS = 3
 SNAPSHOTS = 5
+LEAST_JUMP = 0.1  # of strain: weaker fronts do not crush
+GIVEN_BACK = 0.02  # of a front's jump of strain: zones that have unloaded by more are not its two sides any more
+LEAST_STRAIN = -0.1  # foam that opens goes to any strain; the figure does not follow
 _REACH = 60  # zones on either side of a front that are looked at
 
 
@@ -68,6 +71,8 @@ def draw_hugoniot(
     _draw_crossings(axes, run, found, strain, total, scale)
     low = min(float(np.nanmin(stress)), 0.0)
     axes.set_ylim((1.05 * low if low < -0.02 * top else -0.02 * top) / scale.size, top / scale.size)
+    left, right = axes.get_xlim()
+    axes.set_xlim(max(left, LEAST_STRAIN), right)
     axes.set_xlabel("strain ε")
     axes.set_ylabel(scale.label("stress σ"))
     legend(axes, loc="upper left")
@@ -105,9 +110,17 @@ def _crossing(run: Run, index: int, where: float) -> Crossing | None:
     behind, ahead = first - 2, last + 2
     if q[core] <= 0.0 or behind < low or ahead >= high or run["zone_layer"][behind] != run["zone_layer"][ahead]:
         return None
-    if strain[behind] - strain[ahead] < 0.1:
+    if strain[behind] - strain[ahead] < LEAST_JUMP or not _has_loaded(run, index, behind, ahead):
         return None
     return Crossing(index, slice(first - 2, last + 3), (strain[behind], stress[behind]), (strain[ahead], stress[ahead]))
+
+
+def _has_loaded(run: Run, index: int, behind: int, ahead: int) -> bool:
+    """Whether the front has just loaded the zone behind it: a Rayleigh line between unloaded zones would be invented."""
+    strain, stress, largest = run["strain"][index], run["stress"][index], run["largest_strain"][index]
+    jump = strain[behind] - strain[ahead]
+    given_back, crushed_before = largest[behind] - strain[behind], largest[ahead] - strain[ahead]
+    return bool(max(given_back, crushed_before) < GIVEN_BACK * jump and stress[behind] > stress[ahead] > 0.0)
 
 
 def _draw_curves(axes: Axes, run: Run, deck: object, scale: Scale, strain: float, top: float) -> None:

@@ -49,7 +49,10 @@ class Scale(NamedTuple):
 
     def show(self, value: float, digits: int = 4) -> str:
         """A value in SI as text with this unit: "3.6 MPa"."""
-        return f"{value / self.size:.{digits}g} {self.unit}".strip()
+        text = f"{value / self.size:.{digits}g}"
+        if "e+0" in text:  # 1.25e+03 is no way to write 1250
+            text = f"{float(text):.0f}"
+        return f"{text} {self.unit}".strip()
 
 
 def scale_for(units: str, values: Any = None) -> Scale:
