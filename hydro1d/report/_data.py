@@ -30,7 +30,7 @@ def _profiles(run: Run, theory: Theory | None) -> dict[str, Any] | None:
     time = run.time
     if not len(time):
         return None
-    rows = np.unique(np.linspace(0, len(time) - 1, min(len(time), MOST_TIMES)).round().astype(int))
+    rows = shown_rows(run)
     zones = len(run["zone_coordinate"])
     chosen = np.unique(np.linspace(0, zones - 1, min(zones, MOST_POINTS)).round().astype(int))
     length, clock = scale_for("m", run["node_coordinate"]), scale_for("s", time)
@@ -46,6 +46,26 @@ def _profiles(run: Run, theory: Theory | None) -> dict[str, Any] | None:
         "panels": panels,
         "theory": _theory(run, rows, theory, [(panel["name"], panel["size"]) for panel in panels]),
     }
+
+
+def shown_rows(run: Run) -> np.ndarray:
+    """Numbers of the profiles that the page holds."""
+    stored = len(run.time)
+    return np.unique(np.linspace(0, stored - 1, min(stored, MOST_TIMES)).round().astype(int))
+
+
+def telling_row(run: Run, theory: Theory | None) -> int:
+    """Which of the page's profiles to show first.
+
+    The last one at which theory and code solve the same equations; without one, that in which the column is most of
+    two minds: crushed here, not there.
+    """
+    rows = shown_rows(run)
+    exact = 0 if theory is None else int(np.sum(run.time[rows] <= theory.exact_until * (1 + 1e-12))) - 1
+    if exact > 0:
+        return exact
+    strain = np.nan_to_num(np.clip(run["strain"][rows], -0.1, 1.0))  # foam that opens goes to any strain
+    return int(np.argmax(strain.std(axis=1)))
 
 
 def _panel(run: Run, name: str, rows: np.ndarray, chosen: np.ndarray, theory: Theory | None) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from hydro1d.errors import FileProblem
+from hydro1d.openings import find_openings
 from hydro1d.plot._base import name_of
 from hydro1d.plot._units import scale_for
 
@@ -92,6 +93,7 @@ def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
     left = uncrushed(run)
     if left is not None:
         rows.append(Number("uncrushed", f"{100 * left:.4g} %", "share of the column's length at the end"))
+    rows += _opened(run, deck)
     impulse = float(history["boundary_impulse"][-1])
     rows.append(Number("impulse of both ends", scale_for("Pa s", impulse).show(impulse), "positive to the right"))
     end = float(history["time"][-1])
@@ -102,6 +104,22 @@ def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
         rows.append(Number("wall time of the loop", wall.show(float(run.attributes["wall_seconds"]), 3)))
     if run.attributes.get("limiting_layer"):
         rows.append(Number("layer that limits the time step", str(run.attributes["limiting_layer"])))
+    return rows
+
+
+def _opened(run: Run, deck: Deck | None) -> list[Number]:
+    """Zones that came apart, as far as the profiles show."""
+    found = find_openings(run, deck) if len(run.time) else None
+    if found is None:
+        return []
+    length = scale_for("m", run["node_coordinate"])
+    first = scale_for("s", found.first).show(found.first, 3)
+    closed = "all closed again" if found.still == 0 else f"{found.still} still open"
+    where = f"first seen at {first}, X from {length.show(found.low, 3)} to {length.show(found.high, 3)}; {closed} at the end"
+    rows = [Number("zones that opened", f"{found.zones} of {found.total}", where)]
+    if found.stretched:
+        most = f"{found.widest:.3g} times as long at most: the foam has parted there, its strain means little"
+        rows.append(Number("zones stretched beyond their initial length", str(found.stretched), most))
     return rows
 
 

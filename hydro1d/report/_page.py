@@ -17,10 +17,11 @@ from hydro1d import plot
 from hydro1d.errors import FileProblem
 from hydro1d.plot._base import as_run
 from hydro1d.plot._materials import deck_of
-from hydro1d.report._data import page_data
+from hydro1d.plot._units import scale_for
+from hydro1d.report._data import page_data, shown_rows, telling_row
 from hydro1d.report._drawing import column_svg
 from hydro1d.report._numbers import Number, energy_numbers, headline, key_numbers, require_history
-from hydro1d.report._theory import Theory, find_theory
+from hydro1d.report._theory import Row, Theory, theory_or_reason
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -46,8 +47,9 @@ def report(run: RunOrPath, deck: Deck | str | Path | None = None) -> str:
     """The page as text: no script, style, picture or font comes from anywhere else."""
     run = as_run(run)
     require_history(run)
-    known, theory = deck_of(run, deck), find_theory(run)
-    data = json.dumps(page_data(run, theory), separators=(",", ":"), allow_nan=False)
+    known, theory = deck_of(run, deck), theory_or_reason(run)
+    known_theory = theory if isinstance(theory, Theory) else None
+    data = json.dumps(page_data(run, known_theory), separators=(",", ":"), allow_nan=False)
     script, style = _file("page.js"), _file("page.css")
     body = "\n".join(_sections(run, known, theory, deck))
     return "\n".join(
@@ -89,17 +91,16 @@ def _text(text: object) -> str:
     return html.escape(str(text))
 
 
-def _sections(run: Run, known: Deck | None, theory: Theory | None, deck: Any) -> Iterable[str]:
+def _sections(run: Run, known: Deck | None, theory: Theory | str, deck: Any) -> Iterable[str]:
     yield _head(run)
     yield f'<h2 id="column">The column</h2>{column_svg(run)}'
     yield '<h2 id="numbers">Key numbers</h2><div class="columns"><div>' + _table(key_numbers(run, known))
     yield "</div><div>" + _table(energy_numbers(run, known), "energy per area") + "</div></div>"
-    if theory is not None and theory.rows:
-        yield _comparison(theory)
+    yield _comparison(theory)
     if len(run.time) > 1:
         yield '<h2 id="xt">x–t diagram</h2>' + _pictures(run)
     if len(run.time):
-        yield _slider(run, theory)
+        yield _slider(run, theory if isinstance(theory, Theory) else None)
     yield (
         '<h2 id="history">Histories</h2><div class="bar"><span class="note">Drag across a chart to zoom in, '
         'double-click to see all; point to read off.</span><button type="button" id="whole">show all</button></div>'
@@ -128,7 +129,13 @@ def _head(run: Run) -> str:
         message = run.attributes.get("message") or "not finished; what follows is what there is so far"
         parts.append(f'<p class="answer warning">This run is {_text(run.status)}: {_text(message)}</p>')
     parts.append(f'<p class="answer">{_text(headline(run))}</p>')
-    links = (("numbers", "numbers"), ("xt", "x–t diagram"), ("profile", "profiles"), ("history", "histories"))
+    links = (
+        ("numbers", "numbers"),
+        ("theory", "theory"),
+        ("xt", "x–t diagram"),
+        ("profile", "profiles"),
+        ("history", "histories"),
+    )
     more = (("hugoniot", "strain–stress plane"), ("deck", "deck"))
     return "".join(parts) + "<nav>" + "".join(f'<a href="#{name}">{text}</a>' for name, text in links + more) + "</nav>"
 
@@ -143,18 +150,28 @@ def _table(rows: Sequence[Number], caption: str = "") -> str:
     return f"<table>{head}{cells}</table>"
 
 
-def _comparison(theory: Theory) -> str:
-    cells = "".join(
+def _comparison(theory: Theory | str) -> str:
+    if isinstance(theory, str):
+        return f'<h2 id="theory">Beside theory</h2><p class="note">No comparison. {_text(theory)}</p>'
+    exact = [row for row in theory.rows if row.time <= theory.exact_until * (1 + 1e-9)]
+    rest = [row for row in theory.rows if row not in exact]
+    limit = scale_for("s", theory.exact_until).show(theory.exact_until, 3)
+    groups = [(f"up to {limit}: the same equations", exact), ("afterwards: a simpler model" if exact else "", rest)]
+    body = "".join(_group(title, rows) for title, rows in groups if rows)
+    return (
+        f'<h2 id="theory">Beside theory: {_text(theory.name)}</h2>'
+        f"<table><tr><th>quantity</th><th>theory</th><th>calculated</th><th>difference</th></tr>{body}</table>"
+        f'<p class="note">{_text(theory.assumes)} Source: {_text(theory.source)}.</p>'
+    )
+
+
+def _group(title: str, rows: Sequence[Row]) -> str:
+    head = f'<tr><td class="remark" colspan="4">{_text(title)}</td></tr>' if title else ""
+    return head + "".join(
         f'<tr><td>{_text(row.quantity)}</td><td class="value">{_text(row.scale.show(row.exact))}</td>'
         f'<td class="value">{_text(row.scale.show(row.measured))}</td>'
         f'<td class="value">{_text(row.difference)}</td></tr>'
-        for row in theory.rows
-    )
-    return (
-        f'<h2 id="theory">Beside theory: {_text(theory.name)}</h2>'
-        f"<table><tr><th>quantity</th><th>theory</th><th>calculated</th><th>difference</th></tr>{cells}</table>"
-        f'<p class="note">{_text(theory.source)}. Crushed foam unloads rigidly in the theory and on a steep line here, '
-        "so what rings behind the front differs, and the front with it, a little.</p>"
+        for row in rows
     )
 
 
@@ -181,15 +198,17 @@ def _image(figure: Figure, text: str) -> str:
 
 
 def _slider(run: Run, theory: Theory | None) -> str:
-    from hydro1d.report._data import MOST_TIMES
-
-    last = min(len(run.time), MOST_TIMES) - 1
     note = ""
     if theory is not None:
-        note = f'<p class="note">Dashed: {_text(theory.name)}, for as long as it holds.</p>'
+        exact, until = (scale_for("s", time).show(time, 3) for time in (theory.exact_until, theory.until))
+        first = f"exact up to {exact}, a simpler model until" if theory.exact_until < theory.until else "exact until"
+        if theory.exact_until == 0.0:
+            first = "a simpler model, until"
+        note = f'<p class="note">Dashed: {_text(theory.name)}; {first} {until}.</p>'
+    last = len(shown_rows(run)) - 1
     return (
         '<h2 id="profile">Profiles</h2><div class="bar"><button type="button" id="play">play</button>'
-        f'<input type="range" id="time" min="0" max="{last}" value="{last // 4}" aria-label="time">'
+        f'<input type="range" id="time" min="0" max="{last}" value="{telling_row(run, theory)}" aria-label="time">'
         '<output id="clock"></output>'
         '<button type="button" id="frame" aria-pressed="false">laboratory frame</button></div>'
         f'<div id="profiles"></div>{note}'

@@ -20,12 +20,13 @@ _DOI = "doi:10.1016/j.ijimpeng.2009.03.011"
 
 
 class Row(NamedTuple):
-    """A quantity by theory and as calculated, SI; the scale is how to show it."""
+    """A quantity by theory and as calculated, SI; the scale is how to show it; the time (s) is when."""
 
     quantity: str
     exact: float
     measured: float
     scale: Scale
+    time: float
 
     @property
     def difference(self) -> str:
@@ -37,10 +38,15 @@ class Row(NamedTuple):
 
 @dataclass(frozen=True)
 class Theory:
-    """A closed-form solution: name, where it stands, until when it holds (s), fields and fronts, the comparison."""
+    """A closed-form solution: name, where it stands, what it takes for granted, fields and fronts, the comparison.
+
+    exact_until, until: up to when (s) it solves the same equations as the code, and up to when it says anything.
+    """
 
     name: str
     source: str
+    assumes: str
+    exact_until: float
     until: float
     fields: Callable[[Any, Any], analytic.Fields]
     jumps: Callable[[float], list[analytic.Jump]]
@@ -49,15 +55,42 @@ class Theory:
 
 def find_theory(run: Run) -> Theory | None:
     """The theory that fits the run's deck, or None."""
+    found = theory_or_reason(run)
+    return found if isinstance(found, Theory) else None
+
+
+def theory_or_reason(run: Run) -> Theory | str:
+    """The theory that fits the run's deck, or in a sentence why there is none."""
     deck = run.deck
     layers = deck.get("layer", [])
-    if len(layers) != 1 or layers[0].get("velocity") or len(run.time) < 2 or "front_position" not in run.history:
-        return None
+    if len(layers) != 1:
+        return f"The closed forms are for a single layer; this column has {len(layers)}."
+    if layers[0].get("velocity"):
+        return "The closed forms are for a layer at rest; this one moves at the start."
+    if len(run.time) < 2 or "front_position" not in run.history:
+        return "There are too few profiles to compare with."
+    law = deck.get("material", {}).get(layers[0]["material"], {})
     try:
-        curve = curve_of(deck["material"][layers[0]["material"]])
-        return None if curve is None else _solve(run, curve, float(layers[0]["thickness"]))
-    except (ValueError, KeyError):  # loads that the closed forms do not cover
-        return None
+        curve = curve_of(law)
+        if curve is None:
+            return f'There is no closed form for the law "{str(law.get("law"))[:80]}".'
+        found = _solve(run, curve, float(layers[0]["thickness"]))
+    except (ValueError, KeyError) as error:  # loads that the closed forms do not cover
+        return f"The closed forms do not cover this load on this curve: {error}."
+    return found if found is not None else _LOADS
+
+
+_LOADS = (
+    "The closed forms are for a layer loaded on the left from rest: by a constant or a rectangular pressure, by a piston "
+    "of constant velocity, or, against a wall, by a striker."
+)
+_UNLOADING = (
+    "the theory takes the crushed foam as a rigid block, slowed as one body by the stress ahead of its front: the stress in "
+    "it is a straight line, its velocity one number, its strain what the front left. Here crushed foam unloads on a steep "
+    "elastic line. Waves run through the block, it springs back and rings about the motion of the theory, and the front "
+    "hears of a change at its other end only when a wave has caught up with it. Fronts and times therefore differ by some "
+    'per cent, and single stresses by more; unloading_modulus = "rigid" in the deck comes closer to the theory'
+)
 
 
 def curve_of(law: dict[str, Any]) -> analytic.Curve | None:
@@ -115,16 +148,19 @@ def _solve(run: Run, curve: analytic.Curve, length: float) -> Theory | None:
     return None
 
 
-def _step(name: str, solution: analytic.StepLoading, run: Run, until: float = np.inf) -> Theory:
-    until = min(until, solution.end_time, float(run.time[-1]))
+def _step(name: str, solution: analytic.StepLoading, run: Run, pulse_end: float = np.inf) -> Theory:
+    until = min(pulse_end, solution.end_time, float(run.time[-1]))
     index = _last_before(run, until)
     time = float(run.time[index])
     front = solution.jumps()[-1]
     behind = solution.states[-1]
     rows = _behind_front(run, index, front.front_speed * time, behind)
+    ended = "when the pressure ends" if until == pulse_end else "when a wave reaches the far end, or with the run"
+    assumes = f"A steady front, from the jump conditions on this law's curve: exact until {_clock(until)}, {ended}."
     if len(solution.states) > 2 or behind.strain > solution.curve.yield_strain:
         rows += _fronts(run, [time], lambda t: front.front_speed * t, "front_position", "front")
-    return Theory(name, f"Eqs. 31–37, 40, 41 of {_DOI}", until, solution, solution.jumps, tuple(rows))
+    source = f"Eqs. 31–37, 40, 41 of {_DOI}"
+    return Theory(name, source, assumes, until, until, solution, solution.jumps, tuple(rows))
 
 
 def _column(name: str, solution: CompactionColumn, run: Run, pulse: float = 0.0) -> Theory:
@@ -146,11 +182,27 @@ def _column(name: str, solution: CompactionColumn, run: Run, pulse: float = 0.0)
         felt = float(np.interp(late[-1], run.history["time"], run.history["right_stress"]))
         rows.append(
             Row(
-                f"support stress at {_clock(late[-1])}", float(solution.history(late[-1]).right_stress), felt, _pa(felt)
+                f"support stress at {_clock(late[-1])}",
+                float(solution.history(late[-1]).right_stress),
+                felt,
+                _pa(felt),
+                late[-1],
             )
         )
     rows += _crushed(run, solution)
-    return Theory(name, f"Eqs. 39–47 of {_DOI}, on this law's curve", until, solution, solution.jumps, tuple(rows))
+    ended = (
+        "the two fronts meet"
+        if np.isclose(until, solution.meeting_time)
+        else "the crushed block comes to rest, or with the run"
+    )
+    assumes = (
+        f"While the pulse lasts it is exact. Afterwards {_UNLOADING}."
+        if pulse > 0.0
+        else f"{_UNLOADING[0].upper()}{_UNLOADING[1:]}."
+    )
+    assumes += f" It ends at {_clock(until)}, when {ended}."
+    source = f"Eqs. 39–47 of {_DOI}, on this law's curve"
+    return Theory(name, source, assumes, min(pulse, until), until, solution, solution.jumps, tuple(rows))
 
 
 def _behind_front(run: Run, index: int, front: float, state: analytic.State) -> list[Row]:
@@ -169,6 +221,7 @@ def _behind_front(run: Run, index: int, front: float, state: analytic.State) -> 
             float(getattr(state, name)),
             float(np.median(values[inside])),
             scales[name],
+            float(run.time[index]),
         )
         for name, values in measured.items()
     ]
@@ -181,7 +234,7 @@ def _fronts(run: Run, times: list[float], exact: Callable[[float], float], name:
     for time in times:
         if known.any() and clock[known][0] <= time <= clock[known][-1]:
             measured = float(np.interp(time, clock[known], path[known]))
-            rows.append(Row(f"{words} at {_clock(time)}", exact(time), measured, scale_for("m", measured)))
+            rows.append(Row(f"{words} at {_clock(time)}", exact(time), measured, scale_for("m", measured), time))
     return rows
 
 
@@ -195,14 +248,16 @@ def _block_velocity(run: Run, solution: CompactionColumn, time: float) -> Row:
     mean = float(np.sum(mass * speed) / np.sum(mass)) if inside.any() else np.nan
     exact = float(solution.history(run.time[index]).velocity)
     label = f"mean velocity of the crushed block at {_clock(float(run.time[index]))}"
-    return Row(label, exact, mean, scale_for("m s-1", exact))
+    return Row(label, exact, mean, scale_for("m s-1", exact), float(run.time[index]))
 
 
 def _crushed(run: Run, solution: CompactionColumn) -> list[Row]:
     left = run.history["uncrushed_fraction"]
     if np.isfinite(solution.meeting_time) and (left <= 0.0).any():
         measured = float(run.history["time"][int(np.argmax(left <= 0.0))])
-        return [Row("fully crushed at", solution.meeting_time, measured, scale_for("s", measured))]
+        return [
+            Row("fully crushed at", solution.meeting_time, measured, scale_for("s", measured), solution.meeting_time)
+        ]
     return []
 
 

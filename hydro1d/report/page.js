@@ -77,7 +77,7 @@
       this.canvas.style.height = height + "px";
       const pen = this.canvas.getContext("2d");
       pen.scale(ratio, ratio);
-      const frame = { left: 66, right: width - 12, top: 8, bottom: height - (this.options.xlabel ? 42 : 24) };
+      const frame = { left: 76, right: width - 24, top: 8, bottom: height - (this.options.xlabel ? 42 : 24) };
       const { x, y } = this.limits();
       const toX = (v) => frame.left + ((v - x[0]) / (x[1] - x[0])) * (frame.right - frame.left);
       const toY = (v) => frame.bottom - ((v - y[0]) / (y[1] - y[0])) * (frame.bottom - frame.top);

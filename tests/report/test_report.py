@@ -14,8 +14,9 @@ import hydro1d
 from hydro1d.cli import main
 from hydro1d.errors import FileProblem
 from hydro1d.report import find_theory, report, write_report
+from hydro1d.report._data import shown_rows, telling_row
 from hydro1d.report._numbers import energy_numbers, headline, key_numbers
-from hydro1d.report._theory import curve_of
+from hydro1d.report._theory import curve_of, theory_or_reason
 
 CHROMIUM = next(
     (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
@@ -107,7 +108,7 @@ def test_theory_beside_the_run(result):
 @pytest.mark.parametrize(
     "change",
     [
-        {"layer": [{"material": "foam", "thickness": 0.5}, {"material": "foam", "thickness": 0.5}]},
+        {"layer": [{"material": "foam", "thickness": 0.5, "zones": 40}] * 2},
         {"left": {"type": "free"}},
         {"left": {"type": "pressure", "pulse": "friedlander", "peak": 1.0}},
         {"material": {"foam": {"law": "my.py:Foam"}}},
@@ -115,7 +116,55 @@ def test_theory_beside_the_run(result):
     ],
 )
 def test_no_theory_where_there_is_none(change):
-    assert find_theory(made_run(deck={**made_run().deck, **change})) is None
+    run = made_run(deck={**made_run().deck, **change})
+    assert find_theory(run) is None
+    reason = theory_or_reason(run)
+    assert isinstance(reason, str) and reason.endswith(".")
+    text = report(run)
+    assert f"No comparison. {reason[:20]}" in text and 'href="#theory"' in text
+
+
+def test_why_there_is_no_theory():
+    several = {"layer": [{"material": "foam", "thickness": 0.5, "zones": 40}] * 2}
+    assert "this column has 2" in theory_or_reason(made_run(deck={**made_run().deck, **several}))
+    other = {"material": {"foam": {"law": "table", "density": 50.0}}}
+    assert 'no closed form for the law "table"' in theory_or_reason(made_run(deck={**made_run().deck, **other}))
+    blast = {"left": {"type": "pressure", "pulse": "friedlander", "peak": 1.0}}
+    assert "constant or a rectangular pressure" in theory_or_reason(made_run(deck={**made_run().deck, **blast}))
+
+
+def test_what_the_theory_takes_for_granted_is_said_and_told_apart(result, page):
+    run = hydro1d.open_run(result)
+    theory = find_theory(run)
+    assert theory.exact_until == 1.53e-3 < theory.until
+    sides = {row.time <= theory.exact_until for row in theory.rows}
+    assert sides == {True, False}
+    exact = [abs(row.measured / row.exact - 1.0) for row in theory.rows if row.time <= theory.exact_until]
+    assert max(exact) < 0.02  # 100 zones
+    text = page.read_text()
+    assert text.index("up to 1.53 ms: the same equations") < text.index("afterwards: a simpler model")
+    assert "crushed foam as a rigid block" in text and "springs back" in text and "exact up to 1.53 ms" in text
+
+
+def test_the_page_opens_with_a_profile_that_tells_something(result, page):
+    run = hydro1d.open_run(result)
+    row = telling_row(run, find_theory(run))
+    assert f'max="{len(run.time) - 1}" value="{row}"' in page.read_text()
+    time = run.time[shown_rows(run)]
+    assert time[row] <= 1.53e-3 < time[row + 1]
+    strain = run["strain"][shown_rows(run)[telling_row(run, None)]]
+    assert 0.3 < (strain > 0.5).mean() < 0.7
+
+
+def test_what_opened_is_among_the_key_numbers(result):
+    run = hydro1d.open_run(result)
+    rows = {number.label: number for number in key_numbers(run, hydro1d.load_deck(run.deck))}
+    opened = rows["zones that opened"]
+    assert (
+        re.fullmatch(r"\d+ of 100", opened.value) and "first seen at" in opened.remark and "at the end" in opened.remark
+    )
+    stretched = rows["zones stretched beyond their initial length"]
+    assert float(stretched.remark.split(" times")[0]) == pytest.approx(1.0 - run["strain"].min(), rel=5e-3)
 
 
 def test_every_law_of_the_theory_has_its_curve():
