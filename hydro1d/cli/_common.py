@@ -63,7 +63,7 @@ def add_deck(parser: argparse.ArgumentParser) -> None:
 def positive(text: str) -> int:
     """The `type` of an argument that is an integer from 1 on."""
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text[:80]!r} is not an integer from 1 on")
+        raise argparse.ArgumentTypeError(f"must be 1 at least, an integer, not {text[:80]!r}")
     return int(text)
 
 

@@ -246,8 +246,8 @@ class _Builder:
         spec, law = materials.get(name, ("", None)) if isinstance(name, str) else ("", None)
         self.names[f"layer[{index}].law"] = spec
         stand_in = law if law is not None else Law.model_construct()  # the other keys are checked all the same
-        known = {key: value for key, value in table.items() if key in _LAYER_KEYS}
-        values = {**known, "law": stand_in, "material": name if isinstance(name, str) else ""}
+        own = {key: value for key, value in table.items() if key in _LAYER_KEYS}
+        values = {**own, "law": stand_in, "material": name if isinstance(name, str) else ""}
         layer = self._validated(Layer, values, path)
         return layer if law is not None else None
 

@@ -275,7 +275,18 @@ def test_run_for_real(deck, capsys, tmp_path):
 
 
 def test_run_hands_everything_over(deck, calculated):
-    arguments = ["-o", "x.h5", "--restart", "c.h5", "--force", "--set", "layer.0.zones=7", "--set", "title=new", "--quiet"]
+    arguments = [
+        "-o",
+        "x.h5",
+        "--restart",
+        "c.h5",
+        "--force",
+        "--set",
+        "layer.0.zones=7",
+        "--set",
+        "title=new",
+        "--quiet",
+    ]
     assert main(["run", deck, *arguments]) == 0
     (call,) = calculated.calls
     assert (call.deck.layers[0].zones, call.deck.title) == (7, "new")
@@ -432,8 +443,8 @@ def test_a_result_is_never_overwritten_with_text(deck, capsys, arguments, tmp_pa
         (["completion", "zhs"], "did you mean zsh"),
         (["plot", "x.h5", "--frame", "labratory"], "did you mean laboratory"),
         (["plot", "x.h5", "--format", "jpg"], "png, svg, pdf, gif, mp4; did you mean png"),
-        (["plot", "x.h5", "--dpi", "0"], "'0' is not an integer from 1 on"),
-        (["laws", "plot", "x.toml", "--dpi", "0"], "'0' is not an integer from 1 on"),
+        (["plot", "x.h5", "--dpi", "0"], "must be 1 at least, an integer, not '0'"),
+        (["laws", "plot", "x.toml", "--dpi", "0"], "must be 1 at least, an integer, not '0'"),
         (["verify", "--only", "nho"], "did you mean noh"),
         (["new", "blats"], "did you mean blast"),
         (["laws", "trilinaer"], "did you mean trilinear"),

@@ -105,7 +105,9 @@ def test_states_in_the_front_lie_between_its_ends():
 
 def test_no_rayleigh_line_between_zones_that_have_unloaded():
     """The front of a short pulse dies; later only a crushed block rings, with viscosity in it."""
-    deck = DECK.replace('"3.6 MPa"', '"8 MPa"').replace('"1.53 ms"', '"0.2 ms"').replace("profiles = 36", "profiles = 200")
+    deck = (
+        DECK.replace('"3.6 MPa"', '"8 MPa"').replace('"1.53 ms"', '"0.2 ms"').replace("profiles = 36", "profiles = 200")
+    )
     run = hydro1d.run(deck)
     found = crossings(run)
     assert found
