@@ -10,6 +10,8 @@ import numpy as np
 
 from hydro1d.errors import DeckError, FileProblem
 
+MOST_AT_REST = 0.02  # of the largest stress, at strain 0: more is a curve drawn without its elastic part
+LEAST_POINTS = 8  # three more than the parameters of any law
 LEAST_PASCALS = 1e3  # the softest foams bear more than this before they densify
 
 
@@ -69,6 +71,11 @@ def read_measured(
                 "single loading"
             )
         notes.append(f"left out: {count} of {len(kept)} points, at which the strain does not rise or is negative")
+    if kept.any() and strain[kept][0] == 0.0 and stress[kept][0] > MOST_AT_REST * stress[kept].max():
+        notes.append(
+            f"left out: the stress of {stress[kept][0] / 1e6:.4g} MPa at strain 0, where every law begins with none"
+        )
+        kept &= strain > 0.0
     curve = checked(strain[kept], stress[kept], largest_strain)
     if not given[1]:
         notes.append(_about_pascals(source, curve))
@@ -97,8 +104,10 @@ def checked(strain: np.ndarray, stress: np.ndarray, largest_strain: float = 1.0)
     """The curve, if it can be fitted. Raises DeckError in one sentence."""
     kept = strain <= (largest_strain if largest_strain < 1.0 else np.inf)
     strain, stress = np.asarray(strain, dtype=float)[kept], np.asarray(stress, dtype=float)[kept]
-    if len(strain) < 10:
-        raise DeckError(f"the curve has {len(strain)} points up to strain {largest_strain:g}; a fit needs 10 at least")
+    if len(strain) < LEAST_POINTS:
+        raise DeckError(
+            f"the curve has {len(strain)} points up to strain {largest_strain:g}; a fit needs {LEAST_POINTS} at least"
+        )
     if strain[0] < 0.0 or strain[-1] >= 1.0:
         raise DeckError(
             f"strains run from {strain[0]:g} to {strain[-1]:g}; they must lie between 0 and 1, compression positive "

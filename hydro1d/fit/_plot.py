@@ -23,13 +23,15 @@ def draw(fit: Fit) -> tuple[Figure, np.ndarray]:
     upper.axhline(
         fit.efficiency.plateau_stress / scale.size, color=GREY, linestyle=":", label="plateau by energy efficiency"
     )
-    legend(upper, loc="upper left")
+    legend(upper, loc="best")
     small = scale_for("Pa", fit.residuals)
     middle.plot(fit.curve.strain, fit.residuals / small.size, ".", color=PALETTE[1], markersize=3)
     middle.axhline(0.0, color=GREY, linewidth=0.8)
     middle.set_ylabel(small.label("law − measured"))
     lower.plot(fit.efficiency.strain, fit.efficiency.efficiency, color=PALETTE[2])
     text = f"εD by energy efficiency, {fit.efficiency.densification_strain:.3f}"
+    if not fit.efficiency.complete:
+        text = "largest so far: the curve ends before the foam densifies"
     lower.axvline(fit.efficiency.densification_strain, color=GREY, linestyle=":", label=text)
     lower.set_ylabel("energy efficiency η")
     lower.set_xlabel("strain ε")

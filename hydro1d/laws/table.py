@@ -26,10 +26,20 @@ class Table(Foam):
             raise ValueError("curve needs two points at least besides the origin")
         if not np.isfinite(points).all():
             raise ValueError("curve holds NaN or infinity")
-        if not ((np.diff(points[:, 0]) > 0).all() and points[0, 0] >= 0.0 and points[-1, 0] < 1.0):
-            raise ValueError("curve must have strains rising from 0 or above to below 1")
-        if not ((np.diff(points[:, 1]) >= 0).all() and points[0, 1] >= 0.0 and points[-1, 1] > 0.0):
-            raise ValueError("curve must have stresses that do not fall, from 0 or above")
+        first, last = points[0, 0], points[-1, 0]
+        if not ((np.diff(points[:, 0]) > 0).all() and first >= 0.0 and last < 1.0):
+            raise ValueError(
+                f"curve must have strains rising from 0 or above to below 1, not from {first:g} to {last:g}"
+            )
+        falls = np.flatnonzero(np.diff(points[:, 1]) < 0.0)
+        if len(falls):
+            (strain, high), (_, low) = points[falls[0]], points[falls[0] + 1]
+            raise ValueError(
+                f"curve must have stresses that do not fall; behind strain {strain:g} they fall from {high:g} to {low:g} Pa, "
+                f"the first of {len(falls)} falls; smooth a measured curve, or fit a law to it with hydro1d laws fit"
+            )
+        if not (points[0, 1] >= 0.0 and points[-1, 1] > 0.0):
+            raise ValueError("curve must have stresses from 0 or above to above 0")
         if not (self.modulus * points[:, 0] > points[:, 1]).any():
             raise ValueError("curve never falls below the elastic line; the modulus is too small for it")
         self.corners  # noqa: B018 (its own check, before anything is computed)

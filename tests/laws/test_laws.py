@@ -149,6 +149,16 @@ def test_a_curve_that_is_none_is_refused(curve):
         Table(density=51.6, modulus=22e6, curve=curve)
 
 
+def test_where_a_measured_curve_falls_is_named():
+    curve = ((0.05, 0.8e6), (0.1, 0.82e6), (0.2, 0.81e6), (0.3, 0.83e6), (0.4, 0.8e6), (0.8, 3e6))
+    with pytest.raises(
+        ValidationError, match=r"behind strain 0.1 they fall from 820000 to 810000 Pa, the first of 2 falls"
+    ):
+        Table(density=51.6, modulus=22e6, curve=curve)
+    with pytest.raises(ValidationError, match=r"not from 5 to 80"):
+        Table(density=51.6, modulus=22e6, curve=((5.0, 0.8e6), (80.0, 3e6)))
+
+
 def test_gas():
     law = IdealGas(density=2.0, gamma=1.4, pressure=3e5)
     assert law.initial_energy == pytest.approx(3e5 / (0.4 * 2.0))
