@@ -28,16 +28,13 @@ def support_histories(work: Workshop) -> None:
     colors = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, len(PRESSURES)))
     data: dict[str, np.ndarray] = {}
     for value, color in zip(PRESSURES, colors, strict=True):
-        run = work.run(
-            "pulse_tangent.toml",
-            f"new1_support_{value:g}MPa",
-            [f"left.peak={value * 1e6}", f"layer[0].zones={work.size.fine_zones // 2}", "time.end=8e-3"],
-        )
-        time, stress = run.history["time"] * 1e3, run.history["right_stress"] / (value * 1e6)
-        peak = float(run.history["peak_right_stress"][-1]) / (value * 1e6)
+        load, texts = value * 1e6, [f"layer[0].zones={work.size.fine_zones // 2}", "time.end=8e-3"]
+        run = work.run("pulse_tangent.toml", f"new1_support_{value:g}MPa", [f"left.peak={load}", *texts])
+        time, stress = run.history["time"] * 1e3, run.history["right_stress"] / load
+        peak = float(run.history["peak_right_stress"][-1]) / load
         ax.plot(time, stress, color=color, lw=1.2, label=f"{value:g} MPa: peak {peak:.2f} P")
         data |= {f"t_{value:g}MPa__ms": time, f"support_over_P_{value:g}MPa": stress}
-        work.number("new 1", f"peak support stress over P, P = {value:g} MPa, T = 1.53 ms", "1", solver=peak)
+        _stress_numbers(work, run, value, peak)
     ax.axhline(1.0, color="black", lw=0.8, ls=":")
     ax.set(xlabel="t (ms)", ylabel="support stress over P", xlim=(0, 8), ylim=(0, None), yscale="symlog")
     ax.set_yscale("symlog", linthresh=1.0)
@@ -47,9 +44,20 @@ def support_histories(work: Workshop) -> None:
         "E-P-P-H by Eq. 38, T = 1.53 ms. The plateau arrives at L/c0; only a front that gets through lifts "
         "it. Above 1 the scale is logarithmic."
     )
-    work.picture(
-        "new1_support_stress", "New: stress history at the support for growing P", caption, figure, columns(**data)
-    )
+    title = "New: stress history at the support for growing P"
+    work.picture("new1_support_stress", title, caption, figure, columns(**data))
+
+
+def _stress_numbers(work: Workshop, run: Run, value: float, peak: float) -> None:
+    """The support's peak, and the largest stress anywhere before the column is fully crushed."""
+    done = run.history["uncrushed_fraction"] <= 0.0
+    last = int(np.argmax(done)) - 1 if done.any() else -1
+    inside = float(run.history["peak_stress"][last]) / (value * 1e6)
+    at = f"P = {value:g} MPa, T = 1.53 ms"
+    crushed = "fully crushed" if done.any() else "never fully crushed"
+    work.number("new 1", f"peak support stress over P, {at}", "1", solver=peak, note=crushed)
+    label, note = f"largest stress anywhere over P until fully crushed, {at}", "shock theory: P itself"
+    work.number("new 1", label, "1", equations=1.0, solver=inside, note=note)
 
 
 MAPS = (
@@ -74,6 +82,7 @@ def peak_map(work: Workshop) -> None:
         )
         image = _draw_map(ax, tau, p, tables[name])
         ax.set(title=name, xlabel="τd", xlim=(0.25, 2.5), ylim=(1.5, 6.0))
+        _counts(work, name, tables[name])
     axes[0].set_ylabel("p")
     bar = figure.colorbar(image, ax=axes, ticks=[-1, -0.5, 0, 0.5, 1])
     bar.ax.set_yticklabels(["≤ 0.1", "0.32", "1", "3.2", "≥ 10"])
@@ -96,6 +105,16 @@ def _peaks(work: Workshop, curve: Curve, loads: Sequence[tuple[float, float]]) -
     return columns(
         enhancement=[row["enhancement"] for row in rows], fully_crushed=[row["fully_crushed"] for row in rows]
     )
+
+
+def _counts(work: Workshop, name: str, table: Table) -> None:
+    enhanced, crushed = table["enhancement"] > 1.0, table["fully_crushed"] > 0.5
+    for label, which in (
+        ("fully crushed and not enhanced", crushed & ~enhanced),
+        ("enhanced and not fully crushed", enhanced & ~crushed),
+    ):
+        note = f"of {len(table)}; {int(np.sum(enhanced))} enhanced, {int(np.sum(crushed))} fully crushed"
+        work.number("new 2", f"loads {label}, {name}", "1", solver=float(np.sum(which)), note=note)
 
 
 def _draw_map(ax: Any, tau: np.ndarray, p: np.ndarray, table: Table) -> Any:

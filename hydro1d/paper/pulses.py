@@ -165,9 +165,21 @@ def _stage_1_numbers(work: Workshop, theory: analytic.CompactionPulse, run: Run)
     work.number("11b", "[v] in stage 1", "m/s", equations=final.velocity - curve.yield_velocity, solver=jump)
     work.number("11b", "strain behind the front in stage 1", "1", equations=final.strain, solver=strain)
     note = "read off a front that is some zones wide; its mass is m1"
+    _absorbed_number(work, final.strain, float(np.median(run["internal_energy"][k][zone < 0.25])))
     work.number("11b", "X1 (Eq. 42)", "m", equations=x1, solver=at_end, note=note)
     work.number("11b", "u1 (Eq. 43)", "m", equations=final.velocity * foam.DURATION, solver=u1)
     work.number("11b", "m1 (Eq. 44)", "kg", equations=exact_m1, solver=m1)
+
+
+def _absorbed_number(work: Workshop, strain: float, energy: float) -> None:
+    """Energy that the front of stage 1 absorbs, from the internal energy (J/kg) behind it."""
+    curve = foam.LINEAR
+    exact = 0.5 * (foam.PRESSURE + foam.PLATEAU) * (strain - curve.yield_strain) / 1e6
+    absorbed = (curve.density * energy - 0.5 * foam.PLATEAU * curve.yield_strain) / 1e6
+    path = np.linspace(curve.yield_strain, strain, 2001)
+    area = float(np.trapezoid(curve.stress(path), path)) / 1e6
+    note = f"the area under the curve is {area:.4g}: the front dissipates the rest"
+    work.number("11b", "energy absorbed, ½(σB + σA)[ε]", "MJ/m³", equations=exact, solver=absorbed, note=note)
 
 
 def _end_numbers(work: Workshop, theory: analytic.CompactionPulse, run: Run, rigid: Run) -> None:

@@ -9,13 +9,13 @@ import pytest
 import hydro1d
 from hydro1d import analytic
 from hydro1d.cli import main
-from hydro1d.paper import extended, foam, pulses
+from hydro1d.paper import extended, foam, fronts, pulses
 from hydro1d.paper.boundaries import foam_curve
 from hydro1d.paper.boundary import trace_curves, with_the_pulse
 from hydro1d.paper.chain import equal_masses, potential, spring
 from hydro1d.paper.masses import potential_error
 from hydro1d.paper.springs import PLASTIC, REVERSIBLE, chain
-from hydro1d.paper.workshop import Number, Picture, deck_path
+from hydro1d.paper.workshop import QUICK, Number, Picture, Workshop, deck_path
 
 CASES = Path(hydro1d.__file__).parent.parent / "cases"
 
@@ -84,6 +84,22 @@ def test_chains_while_the_pulse_acts():
     found = {name: points[0].durations["fully_crushed"] / foam.eq30(2.4e6) for name, points in traced.items()}
     assert found["reversible"] == pytest.approx(1.474, rel=0.02)  # a leapfrog of another make: 1.474 and 1.796
     assert found["plastic"] == pytest.approx(1.796, rel=0.02)
+
+
+def test_front_speeds_agree_and_stresses_do_not(tmp_path):
+    work = Workshop(tmp_path, QUICK)
+    speeds, stresses = {}, {}
+    for name, (deck, texts, _) in fronts.SCHOOLS.items():
+        time, crushed, run = fronts.crushed_length(work, deck, name, 2.4e6, texts)
+        speeds[name] = np.polyfit(time, crushed, 1)[0] / 193.05  # Eqs. 35 and 37 with Eq. 38
+        stresses[name] = run.history["peak_stress"][-1] / 2.4e6
+    shocks, plastic, reversible = speeds.values()
+    assert shocks == pytest.approx(1.0, abs=0.003)
+    assert plastic == pytest.approx(0.94, abs=0.02)
+    assert reversible == pytest.approx(1.23, abs=0.04)
+    largest = list(stresses.values())
+    assert largest[0] < 1.01
+    assert min(largest[1:]) > 20.0
 
 
 @pytest.mark.parametrize("curve", [foam.LINEAR, foam.TANGENT], ids=["Eq. 39", "Eq. 38"])
@@ -155,4 +171,4 @@ def test_reproduce_says_what_there_is(tmp_path, capsys):
 @pytest.mark.slow
 def test_reproduce_quick(tmp_path):
     assert main(["reproduce", "--quick", "--out", str(tmp_path), "--quiet"]) == 0
-    assert len(list(tmp_path.glob("*.png"))) == 14
+    assert len(list(tmp_path.glob("*.png"))) == 15
