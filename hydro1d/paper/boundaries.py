@@ -19,6 +19,7 @@ from hydro1d.paper.workshop import (
     GREEN,
     GREY,
     ORANGE,
+    PINK,
     PURPLE,
     RED,
     Workshop,
@@ -51,10 +52,9 @@ def figure_6(work: Workshop) -> None:
 
 
 class _Reach(NamedTuple):
-    """A curve and the pressures (Pa) between which it is traced, every so many of them."""
+    """A curve and the highest pressure (Pa) up to which it is traced, at every so many of the pressures."""
 
     curve: Curve
-    lowest: float = 0.0
     highest: float = math.inf
     every: int = 1
 
@@ -67,20 +67,23 @@ def _continuum(work: Workshop) -> list[_Reach]:
         narrow = {"bracket": (0.85, 1.12), "criteria": ("fully_crushed",)}
         return _Reach(foam_curve(name, "pulse_rppl.toml", size.zones, *texts, **narrow))
 
-    def tangent(name: str, zones: int, *texts: str) -> _Reach:
-        return _Reach(foam_curve(name, "pulse_tangent.toml", zones, *texts))
+    def hardening(name: str, zones: int, *texts: str) -> _Reach:
+        deck, highest = (
+            ("pulse_epph.toml", LINEAR_TOP) if name.startswith("Eq. 39") else ("pulse_tangent.toml", math.inf)
+        )
+        return _Reach(foam_curve(name, deck, zones, *texts), highest=highest)
+
+    def stiffer(name: str, h: float) -> _Reach:
+        return hardening(f"{name} H={h:g}E", size.zones, f"material.foam.unloading_modulus={h * foam.MODULUS}")
 
     soft, stiff = size.stiffness
     return [
         rigid("R-P-P-L", stiff),
         rigid("R-P-P-L soft", soft),
-        tangent("Eq. 38 fine", 2 * size.zones),
-        tangent("Eq. 38", size.zones),
-        *(
-            tangent(f"Eq. 38 H={h:g}E", size.zones, f"material.foam.unloading_modulus={h * foam.MODULUS}")
-            for h in size.unloading
-        ),
-        _Reach(foam_curve("Eq. 39", "pulse_epph.toml", size.zones), highest=LINEAR_TOP),
+        hardening("Eq. 38 fine", 2 * size.zones),
+        *(hardening(name, size.zones) for name in ("Eq. 38", "Eq. 39")),
+        *(stiffer("Eq. 38", h) for h in size.unloading),
+        stiffer("Eq. 39", size.unloading[-1]),
     ]
 
 
@@ -98,8 +101,8 @@ def _chains() -> list[_Reach]:
 def _trace(work: Workshop, reaches: Sequence[_Reach], pressures: Sequence[float]) -> dict[str, list[Point]]:
     """Every curve at the pressures that it reaches; points without durations elsewhere."""
     wanted: dict[tuple[float, ...], list[Curve]] = {}
-    for curve, lowest, highest, every in reaches:
-        own = tuple(p for p in pressures[::every] if lowest <= p <= highest)
+    for curve, highest, every in reaches:
+        own = tuple(p for p in pressures[::every] if p <= highest)
         wanted.setdefault(own, []).append(curve)
     traced: dict[str, list[Point]] = {}
     for own, curves in wanted.items():
@@ -156,15 +159,22 @@ def _draw_rigid(ax: Any, table: Table, scale: np.ndarray, stiffness: float) -> N
 
 def _draw_continuum(ax: Any, table: Table, scale: np.ndarray, unloading: Sequence[float]) -> None:
     pressure = table["pressure"] / 1e6
-    stiffer = [
-        (f"Eq. 38 H={h:g}E", f"Eq. 38, H = {h:g} E", color) for h, color in zip(unloading, (BROWN, GREEN), strict=False)
-    ]
-    for name, label, color in (("Eq. 38", "Eq. 38, H = E", RED), ("Eq. 39", "Eq. 39, H = E", PURPLE), *stiffer):
+    colors = {"Eq. 38": RED, "Eq. 39": PURPLE}
+    colors |= {f"Eq. 38 H={h:g}E": color for h, color in zip(unloading, (BROWN, GREEN), strict=False)}
+    colors[f"Eq. 39 H={unloading[-1]:g}E"] = PINK
+    for name, color in colors.items():
+        label = _words(name) if "H=" in name else f"{_words(name)}, H = E"
         for criterion, style in zip(CRITERIA, ("-", "--"), strict=True):
-            drawn = f"E-P-P-H, {label}: {plain(criterion)}"
+            drawn = f"{label}: {plain(criterion)}"
             ax.plot(table[f"{name} {criterion}"] / scale, pressure, color=color, ls=style, lw=1.3, label=drawn)
     label = "E-P-P-H, Eq. 38, H = E, zones extrapolated: enhanced"
     ax.plot(table["Eq. 38 limit enhanced"] / scale, pressure, "+", color=RED, ms=5, label=label)
+
+
+def _words(name: str) -> str:
+    """Name of a column as the legend has it."""
+    law, _, modulus = name.partition(" H=")
+    return f"E-P-P-H, {law}" + (f", H = {modulus[:-1]} E" if modulus else "")
 
 
 def _draw_chains(ax: Any, table: Table, scale: np.ndarray) -> None:
@@ -192,12 +202,12 @@ def _eq30_numbers(work: Workshop, table: Table) -> None:
 
 def _numbers_6(work: Workshop, table: Table) -> None:
     """Critical durations over Eq. 30 by every model, at a few pressures."""
-    exact, pressure = table["Eq. 30"], table["pressure"]
+    exact, pressure, stiffer = table["Eq. 30"], table["pressure"], work.size.unloading
     names = {
-        "Eq. 38": "E-P-P-H Eq. 38",
-        "Eq. 38 limit": "E-P-P-H Eq. 38, zones extrapolated",
-        "Eq. 39": "E-P-P-H Eq. 39",
-        **{f"Eq. 38 H={h:g}E": f"E-P-P-H Eq. 38, H = {h:g} E" for h in work.size.unloading},
+        "Eq. 38": "E-P-P-H, Eq. 38",
+        "Eq. 38 limit": "E-P-P-H, Eq. 38, zones extrapolated",
+        "Eq. 39": "E-P-P-H, Eq. 39",
+        **{name: _words(name) for name in (*(f"Eq. 38 H={h:g}E" for h in stiffer), f"Eq. 39 H={stiffer[-1]:g}E")},
         "reversible": "ten masses, reversible",
         "plastic": "ten masses, plastic",
         "plastic hard": f"ten masses, plastic, β = {HARD[0]:g}, γ = {HARD[1]:g}",

@@ -20,6 +20,7 @@ from hydro1d.sweep.base import threads_here
 from hydro1d.sweep.job import override
 
 CRITERIA = ("fully_crushed", "enhanced")
+NEAR = 1e-4  # how far from a duration at which a run breaks down it is tried again: far below any tolerance here
 Ending = Callable[[float, float], float]  # pressure, duration -> end of the run, s
 
 
@@ -74,10 +75,11 @@ def critical_durations(curve: Curve, pressure: float, guess: float, tolerance: f
     for criterion in curve.criteria:
 
         def decide(duration: float, criterion: str = criterion) -> bool | None:
-            row = row_at(duration)
-            if row["status"] == "failed" and row[criterion] != 1.0:
-                return None  # it broke down before the question was answered
-            return bool(row[criterion] == 1.0)
+            for near in (duration, duration * (1.0 + NEAR), duration * (1.0 - NEAR)):
+                row = row_at(near)
+                if row["status"] != "failed" or row[criterion] == 1.0:
+                    return bool(row[criterion] == 1.0)
+            return None  # all broke down before the question was answered
 
         low, high = (guess * share for share in curve.bracket)
         try:

@@ -33,7 +33,7 @@ def fronts(work: Workshop) -> None:
             data |= {f"t, {name}, {load / 1e6:g} MPa__s": time, f"crushed, {name}, {load / 1e6:g} MPa__m": crushed}
             _numbers(work, name, load, exact, np.polyfit(time, crushed, 1)[0], run)
         ax.plot([0, PUSHED * 1e3], [0, PUSHED * exact], color="black", ls=":", lw=1.4, label="Eqs. 35 and 37")
-        ax.set(xlabel="t (ms)", title=f"P = {load / 1e6:g} MPa", xlim=(0, PUSHED * 1e3), ylim=(0, None))
+        ax.set(xlabel="t (ms)", title=f"P = {load / 1e6:g} MPa", xlim=(0, PUSHED * 1e3), ylim=(0, 0.5))
         ax.legend(frameon=False, fontsize=8)
     axes[0].set_ylabel("crushed length, undeformed (m)")
     caption = (

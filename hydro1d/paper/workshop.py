@@ -23,7 +23,7 @@ from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
 
 BLUE, RED, GREEN, ORANGE = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00"
-PURPLE, GREY, BROWN, GOLD = "#7d3c98", "#777777", "#8b5a2b", "#d9b648"
+PURPLE, GREY, BROWN, GOLD, PINK = "#7d3c98", "#777777", "#8b5a2b", "#d9b648", "#d98cb3"
 
 
 class Number(NamedTuple):
