@@ -51,6 +51,29 @@ def refuse_result(target: Path) -> Path:
     return target
 
 
+def refuse_other_kind(target: Path, table: bool) -> None:
+    """A run does not replace the table of a sweep, nor a sweep the result of a run. Raises FileProblem."""
+    from hydro1d.errors import FileProblem
+    from hydro1d.store.seal import has_seal
+
+    if not target.is_file():
+        return
+    found = "" if has_seal(target) else _content(target)  # a result is sealed, a table is not
+    if (found == "table") != table:
+        what = "the table of a sweep" if found == "table" else "the result of a run"
+        raise FileProblem(f"cannot write {target}: {what} is there; choose another name with -o")
+
+
+def _content(path: Path) -> str:
+    import h5py
+
+    try:
+        with h5py.File(path, "r", locking=False) as file:
+            return str(file.attrs.get("content", ""))
+    except OSError:
+        return ""
+
+
 def add_deck(parser: argparse.ArgumentParser) -> None:
     """The deck and what overrides its values."""
     parser.add_argument("deck", metavar="DECK", type=path, help="the deck, a TOML file")

@@ -42,6 +42,7 @@ def run(args: argparse.Namespace) -> None:
     from hydro1d.store import check_target
 
     check_target(output)
+    _common.refuse_other_kind(output, table=False)
     result = (_calculate if args.log_json is None else _logged)(args, deck, output)
     if not args.quiet and str(args.log_json) != "-":
         from hydro1d.openings import MOST_VALUES, find_openings
@@ -124,6 +125,7 @@ def _loads(deck: Deck, left: float, right: float) -> str:
     if len(loaded) != 1:
         return f"peak stress on the ends: left {_common.figure(left, 'Pa')}, right {_common.figure(right, 'Pa')}"
     support, peak = (right, applied["left"]) if loaded == ["left"] else (left, applied["right"])
+    support = support if support > 1e-9 * peak else 0.0  # the numerical herald of a wave that has not arrived
     ratio = support / peak
     outcome = "enhanced" if ratio > 1.0 else "attenuated"
     return (

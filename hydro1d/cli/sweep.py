@@ -46,6 +46,7 @@ def run(args: argparse.Namespace) -> int:
         raise DeckError(f"-o {output}: name the HDF5 file; the CSV file comes beside it")
     target, table_file = check_target(output), output.with_suffix(".csv")
     check_text_target(table_file)
+    _common.refuse_other_kind(target, table=True)
     journal = target.with_suffix(".journal")
     with _common.progress_bar(args.quiet) as progress, _executor(args.scheduler) as executor:
         table = run_sweep(

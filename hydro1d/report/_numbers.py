@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from hydro1d.store import Run
 
 
+HERALD = 1e-9  # of the largest stress: less is the numerical herald of a wave that has not arrived
+
+
 class Number(NamedTuple):
     """A line of a table: what, how much, and a remark."""
 
@@ -42,7 +45,8 @@ def load_of(run: Run) -> Load:
     loaded = sides[0] if len(sides) == 1 else "left"
     support = "right" if loaded == "left" else "left"
     applied = float(run.attributes.get("peak_applied_pressure") or 0.0) if len(driven) == 1 else 0.0
-    return Load(loaded, support, applied, float(run.history[f"peak_{support}_stress"][-1]))
+    felt, most = (float(run.history[name][-1]) for name in (f"peak_{support}_stress", "peak_stress"))
+    return Load(loaded, support, applied, felt if felt > HERALD * most else 0.0)
 
 
 def require_history(run: Run) -> None:
@@ -52,8 +56,10 @@ def require_history(run: Run) -> None:
 
 
 def headline(run: Run) -> str:
-    """The answer in a sentence or two."""
+    """The answer in a sentence or two; of a run that stopped early, only what it has shown up to there."""
     load = load_of(run)
+    if run.status != "complete":
+        return _headline_so_far(run, load)
     felt = scale_for("Pa", load.felt).show(load.felt)
     if load.applied > 0.0:
         ratio = load.felt / load.applied
@@ -66,6 +72,15 @@ def headline(run: Run) -> str:
     if left is None:
         return text
     return text + (" The column is fully crushed." if left <= 0.0 else f" {100 * left:.3g} % of it is not crushed.")
+
+
+def _headline_so_far(run: Run, load: Load) -> str:
+    felt, end = scale_for("Pa", load.felt).show(load.felt), float(run.history["time"][-1])
+    text = f"Up to {scale_for('s', end).show(end)} the {load.support} end has felt {felt} at most"
+    if load.applied > 0.0:
+        text += f", {load.felt / load.applied:.3g} times the applied peak of {scale_for('Pa', load.applied).show(load.applied)}"
+    left = uncrushed(run)
+    return text + ("." if left is None else f"; {100 * left:.3g} % of the column is not crushed yet.")
 
 
 def uncrushed(run: Run) -> float | None:
@@ -87,7 +102,8 @@ def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
     rows.append(Number(f"peak stress on the support ({load.support} end)", pressure.show(load.felt), _when(run, load)))
     if load.applied > 0.0:
         ratio = load.felt / load.applied
-        rows.append(Number("support over applied", f"{ratio:.4g}", "enhanced" if ratio > 1.0 else "attenuated"))
+        word = "enhanced" if ratio > 1.0 else "attenuated" if run.status == "complete" else "so far"
+        rows.append(Number("support over applied", f"{ratio:.4g}", word))
     peak = float(history["peak_stress"][-1])
     rows.append(Number("largest stress anywhere", scale_for("Pa", peak).show(peak), "every cycle counted"))
     left = uncrushed(run)

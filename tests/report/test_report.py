@@ -97,6 +97,19 @@ def test_headline_and_numbers(result):
     assert {"dissipated in fronts", "stored elastically", "absorbed by crushing along the curve"} <= set(energies)
 
 
+def test_a_run_that_stopped_claims_no_more_than_it_showed():
+    run = made_run(status="failed")
+    assert headline(run).startswith("Up to 4 ms the right end has felt 0.84 MPa at most, 0.233 times")
+    assert headline(run).endswith("% of the column is not crushed yet.")
+    assert "ttenuated" not in headline(run) + str(key_numbers(run, None))
+
+
+def test_a_wave_that_has_not_arrived_is_nothing():
+    run = made_run()
+    run.history._arrays["peak_right_stress"] = np.full(400, 1.6e-115)
+    assert "feels 0 MPa at most, 0 times" in headline(run)
+
+
 def test_theory_beside_the_run(result):
     theory = find_theory(hydro1d.open_run(result))
     rows = {row.quantity: row for row in theory.rows}

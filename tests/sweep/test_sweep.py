@@ -290,6 +290,23 @@ def test_a_sweep_of_which_nothing_is_left_says_so_to_scripts(folder, monkeypatch
     assert list(read_table("sweep.h5")["status"]) == ["failed"] * 8
 
 
+def test_runs_and_sweeps_do_not_replace_each_other(folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    small = ["--set", "layer[0].zones=10", "--set", "time.end=1e-4", "--quiet"]
+    assert main(["run", "pulse.toml", *small, "-o", "run.h5"]) == 0
+    run_sweep(Sweep.of("pulse.toml", [Parameter(key="left.peak", values=("2 MPa",))], ["enhancement"])).write_hdf5(
+        "table.h5"
+    )
+    before = {name: (folder / name).read_bytes() for name in ("run.h5", "table.h5")}
+    assert main(["run", "pulse.toml", *small, "-o", "table.h5"]) == 4
+    assert "the table of a sweep is there" in capsys.readouterr().err
+    assert main(["sweep", "sweep.toml", "-o", "run.h5"]) == 4
+    assert "the result of a run is there" in capsys.readouterr().err
+    assert before == {name: (folder / name).read_bytes() for name in before}
+    assert main(["run", "pulse.toml", *small, "-o", "run.h5"]) == 0
+    assert main(["sweep", "sweep.toml", "-o", "table.h5", "--quiet"]) == 0
+
+
 def test_energy_shares_add_up(folder):
     names = ["crushing_share", "front_share", "elastic_share", "kinetic_share"]
     sweep = Sweep.of(folder / "pulse.toml", [Parameter(key="left.duration", values=("1 ms",))], names)
