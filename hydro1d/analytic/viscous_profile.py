@@ -4,6 +4,7 @@ A steady front has v - vA = C (strain - strain_A), so stress + q follows the Ray
 q = stress_A + rho0 C^2 (strain - strain_A) - stress(strain). With q = dv (c2 rho dv + c1 rho0 c), where
 dv = h C |d strain/dX| is the velocity jump over a zone of initial width h, rho the current density and
 c = sqrt(tangent/rho0), the slope at each strain is the root of a quadratic, and the profile an integral over strain.
+This q is that of a material which does not lock, room 1 - strain; the solver gives foams with a plateau less room.
 Source: von Neumann & Richtmyer, J. Appl. Phys. 21 (1950) 232-237, doi:10.1063/1.1699639 (quadratic term, gas); Eq. 37
 of Harrigan, Reid & Seyed Yaghoubi 2010, doi:10.1016/j.ijimpeng.2009.03.011, for the line.
 """
