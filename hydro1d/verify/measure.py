@@ -99,7 +99,8 @@ class Front(NamedTuple):
     """A front that runs to the right, as measured: the states on both sides, where it is, and how even its plateau is.
 
     worst: strain of the zone of the plateau, start-up zones included, that is farthest from the exact strain.
-    spread: integral of |ε − exact| over the front, per strain jump, m.
+    spread: integral over the front of |ε − a sharp front at the exact place between the states as measured|, per strain
+    jump, m: the plateau's own error, which need not converge, is no part of it.
     """
 
     ahead: State
@@ -129,7 +130,7 @@ def measure_front(column: Column, fields: dict[str, np.ndarray], exact: Jump, co
     place = size * (last // 2 + float(share.sum()))
     worst = strain[:last][np.argmax(np.abs(strain[:last] - exact.behind.strain))]
     sharp = np.clip(coordinate / size - np.arange(column.zones), 0.0, 1.0)[window]
-    spread = size * float(np.abs(strain[window] - exact.ahead.strain - exact.strain * sharp).sum() / exact.strain)
+    spread = size * float(np.abs(share - sharp).sum())
     return Front(ahead, behind, place, float(worst), spread, last)
 
 
