@@ -127,6 +127,7 @@ def _machine() -> Any:
     return _target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=_features(), opt=3, reloc="pic")
 
 
+@functools.cache
 def _features() -> str:
     """This processor's, and its whole vector registers: LLVM is shy of them for the sake of code that uses few."""
     return ",".join([llvm.get_host_cpu_features().flatten(), "-prefer-256-bit"])
@@ -136,12 +137,12 @@ def _compile(kernel: Callable, signature: str) -> bytes:
     """Object code with one public symbol, ``kernel``."""
     from numba import cfunc, types
 
-    from hydro1d.kernels.lowering import POINTER, make_compilable, not_optimised
+    from hydro1d.kernels.lowering import POINTER, make_compilable, only_lowered
 
     letters = {"p": POINTER, "q": types.CPointer(types.int64), "i": types.int64}
     make_compilable(kernel)
     kinds = types.void(*(letters[letter] for letter in signature))
-    with not_optimised():
+    with only_lowered():
         compiled = cfunc(kinds, error_model="numpy", fastmath={"contract", "arcp"}, _nrt=False)(kernel)
     native = compiled.native_name.removeprefix("cfunc.")
     module = llvm.parse_assembly(_with_entry(compiled.inspect_llvm(), native, signature))

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from types import FunctionType
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.core.codegen import CPUCodeLibrary
+from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
+from numba.core.compiler_lock import global_compiler_lock
 from numba.extending import (
     intrinsic,
     make_attribute_wrapper,
@@ -25,6 +27,8 @@ from numba.extending import (
 
 from hydro1d.kernels import primitives
 from hydro1d.parameters import Component, derived
+
+_LEAN = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}  # for what only compiled code calls
 
 POINTER = types.CPointer(types.float64)
 _INTEGER, _DOUBLE = ir.IntType(64), ir.DoubleType()
@@ -90,20 +94,24 @@ def _call(_typing: Any, addresses: Any, which: Any, arguments: Any) -> Any:
 
 
 def _register_primitives() -> None:
-    overload(primitives.offset)(lambda pointer, start: lambda pointer, start: _offset(pointer, start))
-    overload(primitives.larger)(lambda value, other: lambda value, other: _larger(value, other))
-    overload(primitives.accumulate)(lambda total, value: lambda total, value: _accumulate(total, value))
-    overload(primitives.gather)(
+    overload(primitives.offset, jit_options=_LEAN)(
+        lambda pointer, start: lambda pointer, start: _offset(pointer, start)
+    )
+    overload(primitives.larger, jit_options=_LEAN)(lambda value, other: lambda value, other: _larger(value, other))
+    overload(primitives.accumulate, jit_options=_LEAN)(
+        lambda total, value: lambda total, value: _accumulate(total, value)
+    )
+    overload(primitives.gather, jit_options=_LEAN)(
         lambda pointer, start, stride, count: (
             lambda pointer, start, stride, count: _gather(pointer, start, stride, count)
         )
     )
-    overload(primitives.scatter)(
+    overload(primitives.scatter, jit_options=_LEAN)(
         lambda pointer, start, stride, values: (
             lambda pointer, start, stride, values: _scatter(pointer, start, stride, values)
         )
     )
-    overload(primitives.call)(
+    overload(primitives.call, jit_options=_LEAN)(
         lambda functions, which, *arguments: lambda functions, which, *arguments: _call(functions, which, arguments)
     )
 
@@ -111,17 +119,29 @@ def _register_primitives() -> None:
 _register_primitives()
 
 
+def _no_address(library: Any, _name: str) -> int:
+    library._ensure_finalized()
+    return 0
+
+
+# What numba does to each function by itself and `build` does once, for a kernel with all that it calls. numba would
+# vectorise loops with checks for overlap that `build` makes needless, and make machine code that nobody runs.
+_LEFT_OUT = (
+    (CPUCodeLibrary, "_optimize_functions", lambda *_arguments: None),
+    (CPUCodeLibrary, "_optimize_final_module", lambda *_arguments: None),
+    (JITCodeLibrary, "_finalize_specific", lambda *_arguments: None),
+    (JITCodeLibrary, "get_pointer_to_function", _no_address),
+    (JITCPUCodegen, "set_env", lambda *_arguments: None),
+)
+
+
 @contextmanager
-def not_optimised() -> Iterator[None]:
-    """Keep numba from optimising: it would vectorise loops with checks for overlap that `build` makes needless."""
-    patched = {name: getattr(CPUCodeLibrary, name) for name in ("_optimize_functions", "_optimize_final_module")}
-    for name in patched:
-        setattr(CPUCodeLibrary, name, lambda *_arguments: None)
-    try:
+def only_lowered() -> Iterator[None]:
+    """Keep numba from going beyond LLVM's language; compiling in other threads waits meanwhile."""
+    with global_compiler_lock, ExitStack() as stack:
+        for owner, name, replacement in _LEFT_OUT:
+            stack.enter_context(patch.object(owner, name, replacement))
         yield
-    finally:
-        for name, method in patched.items():
-            setattr(CPUCodeLibrary, name, method)
 
 
 def record_type(component: Component, members: dict[str, Any]) -> types.Type:
@@ -140,7 +160,7 @@ def record_type(component: Component, members: dict[str, Any]) -> types.Type:
     instance = record()
     for key, method in methods(type(component)).items():
         make_compilable(method)
-        overload_method(record, key)(_as_overload(method))
+        overload_method(record, key, jit_options=_LEAN)(_as_overload(method))
     return instance
 
 
@@ -181,7 +201,7 @@ def make_compilable(function: FunctionType) -> None:
         if isinstance(callee, FunctionType) and not getattr(callee, "_hydro1d_jitable", False):
             callee._hydro1d_jitable = True  # type: ignore[attr-defined]
             if callee.__module__ != primitives.__name__:
-                register_jitable(callee)
+                register_jitable(**_LEAN)(callee)
             make_compilable(callee)
 
 
