@@ -11,10 +11,11 @@ from unittest.mock import patch
 
 import numpy as np
 from llvmlite import ir
-from numba import types
+from numba import _dynfunc, types  # type: ignore[attr-defined]
 from numba.core import cgutils
-from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
+from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary
 from numba.core.compiler_lock import global_compiler_lock
+from numba.core.cpu import CPUContext
 from numba.extending import (
     intrinsic,
     make_attribute_wrapper,
@@ -119,10 +120,21 @@ def _register_primitives() -> None:
 _register_primitives()
 
 
-def _no_address(library: Any, _name: str) -> int:
+def _executable(context: Any, library: Any, description: Any, environment: Any) -> Any:
+    """Machine code as ever for what Python may call (an ``@njit`` function that a law uses), none for anything else."""
     library._ensure_finalized()
-    return 0
+    if library.codegen._engine.is_symbol_defined(description.llvm_cpython_wrapper_name):
+        return _make_executable(context, library, description, environment)
+    return _dynfunc.make_function(description.lookup_module(), description.qualname, "", 0, environment, (library,))
 
+
+def _pointer(library: Any, name: str) -> int:
+    """No machine code for a kernel's entry; `build` makes it."""
+    library._ensure_finalized()
+    return 0 if name.startswith("cfunc.") else _make_pointer(library, name)
+
+
+_make_executable, _make_pointer = CPUContext.get_executable, JITCodeLibrary.get_pointer_to_function
 
 # What numba does to each function by itself and `build` does once, for a kernel with all that it calls. numba would
 # vectorise loops with checks for overlap that `build` makes needless, and make machine code that nobody runs.
@@ -130,8 +142,8 @@ _LEFT_OUT = (
     (CPUCodeLibrary, "_optimize_functions", lambda *_arguments: None),
     (CPUCodeLibrary, "_optimize_final_module", lambda *_arguments: None),
     (JITCodeLibrary, "_finalize_specific", lambda *_arguments: None),
-    (JITCodeLibrary, "get_pointer_to_function", _no_address),
-    (JITCPUCodegen, "set_env", lambda *_arguments: None),
+    (JITCodeLibrary, "get_pointer_to_function", _pointer),
+    (CPUContext, "get_executable", _executable),
 )
 
 

@@ -150,3 +150,19 @@ def test_refined_state_goes_on() -> None:
     program, states = cases.stations("epph", 4000, 1)
     assert program.advance(states[0], stop=1.0, steps=50, row_at_stop=False) == 1
     assert np.isfinite(states[0].force).all()
+
+
+def test_a_compiled_helper_serves_python_too():
+    """Machine code is left out for what only compiled code calls, but a law may use a function that Python calls as well."""
+    import numba
+
+    from hydro1d.kernels.lowering import only_lowered
+
+    @numba.njit
+    def square(value):
+        return value * value
+
+    with only_lowered():
+        numba.cfunc("f8(f8)")(lambda value: square(value) + 1.0)
+    assert len(square.signatures) == 1
+    assert square(3.0) == 9.0
