@@ -96,9 +96,14 @@ def _dispatch(arguments: list[str]) -> int:
 
 def _execute(name: str, arguments: list[str]) -> int:
     import argparse
+    import atexit
+    import gc
     import signal
     import warnings
 
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy starts a pool for matrices, of which there are none here
+    # What is left at the end goes with the process: Python need not look through it for garbage, which takes long.
+    atexit.register(gc.freeze)
     previous = _interrupt_on_sigterm()
     try:
         module = _module(name)

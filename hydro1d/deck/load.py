@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import Field, ValidationError, field_validator
 
@@ -34,7 +34,6 @@ from hydro1d.deck.model import (
     Time,
     plain_text,
 )
-from hydro1d.deck.positions import Location, Positions
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
 from hydro1d.laws.base import Law
@@ -42,6 +41,9 @@ from hydro1d.parameters import Component
 from hydro1d.plugins import UnknownPlugin, available, find
 from hydro1d.units import shorten
 from hydro1d.viscosity import Viscosity
+
+if TYPE_CHECKING:
+    from hydro1d.deck.positions import Location
 
 _SECTIONS = ("title", "material", "layer", "left", "right", "time", "viscosity", "output", "checkpoint")
 _LAYER_KEYS = ("material", "thickness", "zones", "velocity")  # a deck names the law by its material
@@ -90,6 +92,8 @@ def _copied(source: Mapping[str, Any]) -> dict[str, Any]:
 
 def _located(path: Path | None, found: list[Finding], text: str, origins: dict[Location, str]) -> DeckError:
     """The exception, each problem with line and column, or with the override that brought its value."""
+    from hydro1d.deck.positions import Positions  # only what is wrong has to be found
+
     positions = Positions(text)
 
     def origin_of(place: Location) -> str:

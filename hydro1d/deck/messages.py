@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from hydro1d.deck.positions import Location
 from hydro1d.errors import DeckError, Problem
 from hydro1d.units import describe, shorten
+
+if TYPE_CHECKING:
+    from hydro1d.deck.positions import Location
 
 MOST_SHOWN = 50  # problems in one message
 MOST_FOUND = 500  # in one table; nobody corrects more at once, and each costs time

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from hydro1d.deck.messages import Finding, path_text
-from hydro1d.deck.positions import Location
+
+if TYPE_CHECKING:
+    from hydro1d.deck.positions import Location
 
 _PART = re.compile(r'\.?(?:"([^"]*)"|\'([^\']*)\'|\[(\d{1,9})\]|([^.\[\]="\']+))')
 _MOST_PARTS = 20

@@ -63,8 +63,8 @@ def empty(content: Content, tables: list[Table]) -> bytes:
         return file.id.get_file_image()
 
 
-def whole(content: Content, tables: list[Table], tails: Tails, more: More) -> bytes:
-    """Image of a complete file, sealed."""
+def whole(content: Content, tables: list[Table], tails: Tails, more: More) -> tuple[bytes, bytes]:
+    """Image of a complete file, and its seal."""
     with hdf5.new_image() as file:
         _structure(file, content, tables, alone=True)
         write_blocks(file, tables)
@@ -72,7 +72,7 @@ def whole(content: Content, tables: list[Table], tails: Tails, more: More) -> by
         file.flush()
         image = file.id.get_file_image()
     view = memoryview(image)
-    return image + make_seal(lambda offset, size: view[offset : offset + size], len(image), data)
+    return image, make_seal(lambda offset, size: view[offset : offset + size], len(image), data)
 
 
 def complete(temporary: Temporary, content: Content, tables: list[Table], tails: Tails, more: More) -> None:

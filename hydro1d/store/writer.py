@@ -207,7 +207,8 @@ class Hdf5Sink(Recorder):
                 files.refuse_foreign(target)
                 if self._working is None:
                     temporary = self._temporary()
-                    temporary.append(image.whole(self.content, self.tables, tails, more))
+                    for part in image.whole(self.content, self.tables, tails, more):
+                        temporary.append(part)
                 else:
                     temporary = self._working if last else self._copy()
                     image.complete(temporary, self.content, self.tables, tails, more)
