@@ -1,10 +1,18 @@
-"""Ctrl-C and SIGTERM inside one process: when they are a question, when they are an order, who may ask."""
+"""Ctrl-C and SIGTERM: what they leave and how soon; when they are a question, when they are an order, who may ask.
+
+How soon is measured in processor time from the signal to the end of the process, which is wall time on a machine that has
+nothing else to do, and means something on one that has.
+"""
 
 from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import threading
+import time
+from pathlib import Path
 
 import pytest
 
@@ -95,3 +103,63 @@ def test_in_memory_progress_is_told_too():
     heard: list[float] = []
     hydro1d.run(DECK.replace("end = 1.0", "end = 1e-3"), progress=heard.append)
     assert heard[-1] == 1.0
+
+
+SOONEST = 2.0  # seconds of processor time from a signal to the end
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(hydro1d.__file__).parents[1])}
+
+
+def stopped(folder: Path, arguments: list[str], under_way, number: int) -> tuple[int, float, str]:
+    """Exit code, processor seconds after the signal and standard error of a command that is stopped once under way."""
+    with open(folder / "stderr", "w") as errors:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "hydro1d.cli", *arguments],
+            cwd=folder, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=errors,
+        )  # fmt: skip
+        end = time.monotonic() + 120.0
+        while not under_way() and time.monotonic() < end:
+            assert process.poll() is None, (folder / "stderr").read_text()
+            time.sleep(0.02)
+        ticks = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()[11:13]
+        before = sum(map(int, ticks)) / os.sysconf("SC_CLK_TCK")
+        process.send_signal(number)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    return process.returncode, used.ru_utime + used.ru_stime - before, (folder / "stderr").read_text()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("zones", [50, 100_000])
+def test_a_run_stops_soon_and_leaves_what_it_has(tmp_path, number, zones):
+    text = DECK.replace("zones = 50", f"zones = {zones}").replace("end = 1.0", "end = 100.0")
+    (tmp_path / "deck.toml").write_text(text + "profiles = 3\n[checkpoint]\nwall = 0.5\n")
+    code, seconds, errors = stopped(
+        tmp_path, ["run", "deck.toml"], lambda: list(tmp_path.glob("deck.checkpoint-*.h5")), number
+    )
+    print(f"{zones} zones: stopped after {seconds:.2f} s of processor time")
+    assert code == 130 and errors.startswith("hydro1d: interrupted") and "Traceback" not in errors
+    assert seconds < SOONEST
+    assert hydro1d.open_run(tmp_path / "deck.partial.h5").status == "interrupted"
+    newest = max(int(path.stem.rpartition("-")[2]) for path in tmp_path.glob("deck.checkpoint-*.h5"))
+    assert f"cycle {newest}" in errors, "the last checkpoint is where it stopped"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_sweep_stops_soon_and_goes_on(tmp_path, number):
+    (tmp_path / "deck.toml").write_text(DECK.replace("end = 1.0", "end = 3.0"))
+    (tmp_path / "sweep.toml").write_text(
+        'deck = "deck.toml"\nquantities = ["peak_support_stress"]\n'
+        '[[parameter]]\nkey = "left.peak"\nvalues = [1e5, 2e5, 3e5, 4e5, 5e5, 6e5]\n'
+    )
+    journal = tmp_path / "sweep.journal"
+    arguments = ["sweep", "sweep.toml", "--threads", "2", "--quiet"]
+    code, seconds, errors = stopped(
+        tmp_path, arguments, lambda: journal.exists() and journal.read_text().count("\n") > 1, number
+    )
+    print(f"sweep: stopped after {seconds:.2f} s of processor time")
+    assert code == 130 and errors.startswith("hydro1d: interrupted") and "Traceback" not in errors
+    assert seconds < SOONEST and not (tmp_path / "sweep.h5").exists()
+    done = subprocess.run(
+        [sys.executable, "-m", "hydro1d.cli", *arguments], cwd=tmp_path, env=ENVIRONMENT, capture_output=True
+    )
+    assert done.returncode == 0 and (tmp_path / "sweep.csv").read_text().count("\n") == 7 and not journal.exists()

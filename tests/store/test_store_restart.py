@@ -99,9 +99,13 @@ def test_restart(whole, tmp_path):
 
 
 @pytest.mark.slow
-def test_restart_from_every_checkpoint(whole, tmp_path):
-    path, checkpoints = whole
-    restart(checkpoints, path, tmp_path)
+def test_restart_from_each_of_two_hundred_checkpoints(whole, tmp_path, monkeypatch):
+    monkeypatch.setattr(writer, "KEPT_CHECKPOINTS", 10**6)
+    hydro1d.run(DECK.replace("cycles = 20", "cycles = 3"), tmp_path / "a.h5")
+    checkpoints = sorted(tmp_path.glob("a.checkpoint-*.h5"), key=writer._cycle)
+    print(len(checkpoints), "checkpoints")
+    assert len(checkpoints) >= 200
+    restart(checkpoints, whole[0], tmp_path)
 
 
 @pytest.mark.parametrize("when", ["every profile", "every cycle"])

@@ -1,0 +1,171 @@
+"""Mutation testing: change one operator, comparison or number of a module at a time and see whether its tests notice.
+
+    NUMBA_DISABLE_JIT=1 python tools/mutate.py hydro1d/laws tests/laws/test_laws.py tests/laws/test_laws_details.py
+
+Each mutant lives in a forked process that has the libraries loaded already. A module's tests are the files that name it. Texts
+of messages, docstrings and annotations are left alone. Exit code 1 if fewer than `--least` percent of the mutants are noticed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import copy
+import importlib.abc
+import importlib.util
+import os
+import random
+import resource
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import hypothesis  # noqa: F401  (loaded once, for all mutants)
+import numpy as np  # noqa: F401
+import pydantic  # noqa: F401
+import pytest
+import scipy.integrate
+import scipy.optimize  # noqa: F401
+
+SWAPS: dict[type, type] = {
+    **{ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.Pow: ast.Mult},
+    **{ast.FloorDiv: ast.Mult, ast.Mod: ast.Mult, ast.Lt: ast.GtE, ast.LtE: ast.Lt, ast.Gt: ast.LtE, ast.GtE: ast.Gt},
+    **{ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.And: ast.Or, ast.Or: ast.And, ast.Is: ast.IsNot, ast.IsNot: ast.Is},
+    ast.In: ast.NotIn,
+}
+SILENT = ("annotation", "returns", "decorator_list", "msg")
+SECONDS = 120  # of processor time for the tests of one mutant; more is an endless loop, which is noticed
+
+
+def places(node: ast.AST) -> Iterator[ast.AST]:
+    """Every node whose change a test should notice."""
+    if isinstance(node, ast.JoinedStr | ast.Raise) or (
+        isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    ):
+        return
+    yield node
+    for name, value in ast.iter_fields(node):
+        if name not in SILENT:
+            for child in value if isinstance(value, list) else [value]:
+                if isinstance(child, ast.AST):
+                    yield from places(child)
+
+
+def change(node: ast.AST) -> str:
+    """Mutate a node in place; what was done, or nothing."""
+    if isinstance(node, ast.BinOp | ast.BoolOp | ast.Compare):
+        old = node.ops[0] if isinstance(node, ast.Compare) else node.op
+        new = SWAPS.get(type(old), type(old))()
+        if isinstance(node, ast.Compare):
+            node.ops[0] = new
+        else:
+            node.op = new
+        return f"{type(old).__name__} → {type(new).__name__}" if type(new) is not type(old) else ""
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
+        old = node.op
+        if isinstance(old, ast.Not):
+            node.operand = ast.UnaryOp(old, node.operand)
+        else:
+            node.op = ast.UAdd()
+        return f"{type(old).__name__} dropped"
+    if isinstance(node, ast.Constant) and isinstance(node.value, bool | int | float):
+        old = node.value
+        node.value = not old if isinstance(old, bool) else old + 1 if isinstance(old, int) or not old else bigger(old)
+        return f"{old} → {node.value}"
+    if isinstance(node, ast.Name) and node.id in ("min", "max"):
+        old, node.id = node.id, "max" if node.id == "min" else "min"
+        return f"{old} → {node.id}"
+    return ""
+
+
+def bigger(number: float) -> float:
+    """A tenth more; a tolerance a million times."""
+    return 1e6 * number if abs(number) < 1e-6 else 1.1 * number
+
+
+def mutants(path: Path) -> list[tuple[Path, int, int, str]]:
+    """All mutants of a file: its name, the number of the node, the line, what is changed."""
+    nodes = list(places(ast.parse(path.read_text())))
+    found = [(path, k, getattr(node, "lineno", 0), change(copy.deepcopy(node))) for k, node in enumerate(nodes)]
+    return [mutant for mutant in found if mutant[3]]
+
+
+def mutated(path: Path, number: int) -> ast.Module:
+    """The module's tree with one node changed."""
+    tree = ast.parse(path.read_text())
+    change(list(places(tree))[number])
+    return ast.fix_missing_locations(tree)
+
+
+class Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Brings the mutant in under the module's own name."""
+
+    def __init__(self, path: Path, tree: ast.Module) -> None:
+        self.path, self.tree = path, tree
+        self.name = ".".join(path.with_suffix("").parts)
+
+    def find_spec(self, name, path, target=None):  # noqa: D102 (importlib's)
+        if name == self.name:
+            return importlib.util.spec_from_file_location(name, self.path.resolve(), loader=self)
+        return None
+
+    def exec_module(self, module):  # noqa: D102 (importlib's)
+        exec(compile(self.tree, str(self.path), "exec"), module.__dict__)
+
+
+def tests_of(path: Path, tests: list[Path]) -> list[str]:
+    """The test files that name a module, or all of them."""
+    files = sorted(file for path in tests for file in (path.rglob("test_*.py") if path.is_dir() else [path]))
+    return [str(file) for file in files if path.stem.strip("_") in file.read_text()] or [str(file) for file in files]
+
+
+def is_noticed(path: Path, number: int, tests: list[str]) -> bool:
+    """Whether the tests fail, or do not end, with this mutant."""
+    child = os.fork()
+    if child == 0:
+        quiet = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(quiet, 1)
+        os.dup2(quiet, 2)
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        code = 1
+        try:
+            if number >= 0:
+                sys.meta_path.insert(0, Loader(path, mutated(path, number)))
+            code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", "-p", "no:randomly", *tests]))
+        finally:
+            os._exit(code)
+    return os.waitpid(child, 0)[1] != 0
+
+
+def main() -> int:
+    """Sample, try, count, list the survivors."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("source", type=Path, help="a module or a folder of modules, from the project's root")
+    parser.add_argument("tests", type=Path, nargs="+", help="its tests, files or folders")
+    parser.add_argument("--sample", type=int, help="so many mutants, drawn at random; default: all")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--least", type=float, default=90.0, help="percent that must be noticed")
+    args = parser.parse_args()
+    files = sorted(args.source.rglob("*.py")) if args.source.is_dir() else [args.source]
+    every = [mutant for file in files for mutant in mutants(file)]
+    chosen = random.Random(args.seed).sample(every, min(args.sample or len(every), len(every)))
+    survivors, tests = [], {file: tests_of(file, args.tests) for file, *_ in chosen}
+    for file, wanted in tests.items():
+        if is_noticed(file, -1, wanted):
+            print(f"{file}: its tests fail without a mutant")
+            return 2
+    for count, (file, number, line, what) in enumerate(sorted(chosen), 1):
+        if not is_noticed(file, number, tests[file]):
+            survivors.append((file, line, what))
+            print(f"survives: {file}:{line}: {what}", flush=True)
+        if count % 25 == 0:
+            print(f"{count} of {len(chosen)}, {len(survivors)} survive", flush=True)
+    score = 100.0 * (1.0 - len(survivors) / len(chosen))
+    print(
+        f"{args.source}: {len(chosen) - len(survivors)} of {len(chosen)} noticed ({score:.1f} %), {len(every)} mutants in all"
+    )
+    return 0 if score >= args.least else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
