@@ -10,8 +10,8 @@ from hydro1d.column import Column, build_column
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import BreakdownError, FileProblem, Interrupted
 from hydro1d.interrupt import interruptible
+from hydro1d.kernels import layout
 from hydro1d.kernels.build import fingerprint
-from hydro1d.kernels.march import LIMITING_LAYER
 from hydro1d.kernels.program import Program
 from hydro1d.laws.check import check_law
 from hydro1d.solver import CheckpointPlan, Outcome, initial_state, solve
@@ -115,7 +115,7 @@ def _closing(column: Column, outcome: Outcome) -> dict[str, Any]:
     """Root attributes known at the end."""
     if outcome.state is None:
         return {}
-    layer = int(outcome.state.ledger[LIMITING_LAYER])
+    layer = int(outcome.state.ledger[layout.LIMITING_LAYER])
     return {"limiting_layer": column.layer_name[layer], "message": outcome.message}
 
 
@@ -138,7 +138,17 @@ def _state_of(column: Column, arrays: Mapping[str, Any], path: Path) -> State:
                 f"cannot carry on from {path}: its state holds {found} as {name}, this deck needs {needed.shape}; "
                 "layers, zones and the variables of laws must be the checkpoint's"
             )
-    return State.from_arrays(dict(arrays))
+    state = State.from_arrays(dict(arrays))
+    _check_places(column, state, path)
+    return state
+
+
+def _check_places(column: Column, state: State, path: Path) -> None:
+    """What compiled code takes for places in its arrays must be places in them."""
+    most = {layout.LEFT_FRONT: column.zones, layout.RIGHT_FRONT: column.zones, layout.CYCLE: 2**53}
+    most[layout.LIMITING_LAYER] = len(column.slabs) - 1
+    if not all(0.0 <= state.ledger[place] <= bound for place, bound in most.items()):
+        raise FileProblem(f"cannot carry on from {path}: its state makes no sense")
 
 
 def _share(column: Column, progress: Callable[[float], None] | None) -> Callable[[State], None] | None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from hydro1d.unit_table import ATOMS
-from hydro1d.units import UnitError, convert, parse_unit
+from hydro1d.units import UnitError, convert, parse_unit, shorten
 
 LARGEST_FILE = 64 * 1024**2  # bytes
 LONGEST_TABLE = 1_000_000  # rows
@@ -38,7 +38,7 @@ def read_table(value: Any, units: tuple[str, str], folder: Path) -> Table:
     if hasattr(value, "tolist"):  # a numpy array
         value = value.tolist()
     if not isinstance(value, Sequence) or not value:
-        raise TableError("a table is a list of pairs, [[0, 0], [1, 2]], or the name of a CSV file")
+        raise TableError(f"{shorten(value)} is no list of pairs, [[0, 0], [1, 2]], nor the name of a CSV file")
     if len(value) > LONGEST_TABLE:
         raise TableError(f"the table has {len(value)} rows; {LONGEST_TABLE} are possible")
     rows = []

@@ -13,6 +13,7 @@ import ast
 import copy
 import importlib.abc
 import importlib.util
+import math
 import os
 import random
 import resource
@@ -34,7 +35,6 @@ SWAPS: dict[type, type] = {
     ast.In: ast.NotIn,
 }
 SILENT = ("annotation", "returns", "decorator_list", "msg")
-SECONDS = 120  # of processor time for the tests of one mutant; more is an endless loop, which is noticed
 
 
 def places(node: ast.AST) -> Iterator[ast.AST]:
@@ -119,22 +119,22 @@ def tests_of(path: Path, tests: list[Path]) -> list[str]:
     return [str(file) for file in files if path.stem.strip("_") in file.read_text()] or [str(file) for file in files]
 
 
-def is_noticed(path: Path, number: int, tests: list[str]) -> bool:
-    """Whether the tests fail, or do not end, with this mutant."""
+def fails(path: Path, number: int, tests: list[str], seconds: float) -> tuple[bool, float]:
+    """Whether the tests fail, or do not end in time, with this mutant (-1: none); the processor time that they took."""
     child = os.fork()
     if child == 0:
-        quiet = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(quiet, 1)
-        os.dup2(quiet, 2)
-        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        for stream in (1, 2):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds)))
         code = 1
         try:
             if number >= 0:
                 sys.meta_path.insert(0, Loader(path, mutated(path, number)))
-            code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", "-p", "no:randomly", *tests]))
+            code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", *tests]))
         finally:
             os._exit(code)
-    return os.waitpid(child, 0)[1] != 0
+    _, status, used = os.wait4(child, 0)
+    return status != 0, used.ru_utime + used.ru_stime
 
 
 def main() -> int:
@@ -149,13 +149,15 @@ def main() -> int:
     files = sorted(args.source.rglob("*.py")) if args.source.is_dir() else [args.source]
     every = [mutant for file in files for mutant in mutants(file)]
     chosen = random.Random(args.seed).sample(every, min(args.sample or len(every), len(every)))
-    survivors, tests = [], {file: tests_of(file, args.tests) for file, *_ in chosen}
+    survivors, tests, limits = [], {file: tests_of(file, args.tests) for file, *_ in chosen}, {}
     for file, wanted in tests.items():
-        if is_noticed(file, -1, wanted):
+        failed, seconds = fails(file, -1, wanted, 3600.0)
+        limits[file] = 3.0 * seconds + 5.0  # an endless loop is noticed
+        if failed:
             print(f"{file}: its tests fail without a mutant")
             return 2
     for count, (file, number, line, what) in enumerate(sorted(chosen), 1):
-        if not is_noticed(file, number, tests[file]):
+        if not fails(file, number, tests[file], limits[file])[0]:
             survivors.append((file, line, what))
             print(f"survives: {file}:{line}: {what}", flush=True)
         if count % 25 == 0:

@@ -12,6 +12,7 @@ import pytest
 
 import hydro1d
 from hydro1d.errors import FileProblem
+from hydro1d.kernels import layout
 from hydro1d.store import writer
 
 DECK = """
@@ -98,14 +99,26 @@ def test_restart(whole, tmp_path):
     restart(checkpoints[:: len(checkpoints) // 5], path, tmp_path)
 
 
+LONG = (
+    DECK.replace("zones = 30", "zones = 300")
+    .replace("zones = 40", "zones = 400")
+    .replace("history = 3", "history = 20")
+)
+
+
 @pytest.mark.slow
-def test_restart_from_each_of_two_hundred_checkpoints(whole, tmp_path, monkeypatch):
+def test_restart_from_each_of_two_hundred_checkpoints(tmp_path, monkeypatch):
     monkeypatch.setattr(writer, "KEPT_CHECKPOINTS", 10**6)
-    hydro1d.run(DECK.replace("cycles = 20", "cycles = 3"), tmp_path / "a.h5")
+    deck = LONG.replace("profiles = 40", "profiles = 10").replace("cycles = 20", "cycles = 64")
+    hydro1d.run(deck, tmp_path / "a.h5")
+    hydro1d.run(deck.split("[checkpoint]")[0], tmp_path / "whole.h5")
     checkpoints = sorted(tmp_path.glob("a.checkpoint-*.h5"), key=writer._cycle)
     print(len(checkpoints), "checkpoints")
     assert len(checkpoints) >= 200
-    restart(checkpoints, whole[0], tmp_path)
+    same(tmp_path / "a.h5", tmp_path / "whole.h5")
+    for checkpoint in checkpoints:
+        hydro1d.run(deck.split("[checkpoint]")[0], tmp_path / "b.h5", restart=checkpoint)
+        same(tmp_path / "whole.h5", tmp_path / "b.h5")
 
 
 @pytest.mark.parametrize("when", ["every profile", "every cycle"])
@@ -220,4 +233,17 @@ def test_a_state_that_is_not_whole(whole, tmp_path, change):
             file["state/force"] = values
             file["state/force"].attrs["crc32"] = np.uint32(zlib.crc32(values.tobytes()))
     with pytest.raises(FileProblem, match=r"holds (none|numbers \(71,\)) as force, this deck needs \(70,\)"):
+        hydro1d.run(DECK, tmp_path / "b.h5", restart=path)
+
+
+@pytest.mark.parametrize("place", [layout.LEFT_FRONT, layout.RIGHT_FRONT, layout.LIMITING_LAYER, layout.CYCLE])
+@pytest.mark.parametrize("value", [-1.0, 1e300, np.nan, np.inf])
+def test_a_state_that_points_outside_its_arrays(whole, tmp_path, place, value):
+    """A checkpoint with right checksums and shapes must not have compiled code read elsewhere."""
+    path = tmp_path / "c.h5"
+    path.write_bytes(whole[1][3].read_bytes())
+    with h5py.File(path, "r+") as file:
+        file["state/ledger"][place] = value
+        file["state/ledger"].attrs["crc32"] = np.uint32(zlib.crc32(file["state/ledger"][()].tobytes()))
+    with pytest.raises(FileProblem, match="its state makes no sense"):
         hydro1d.run(DECK, tmp_path / "b.h5", restart=path)
