@@ -193,11 +193,13 @@ def _draw_chains(ax: Any, table: Table, scale: np.ndarray) -> None:
 def _eq30_numbers(work: Workshop, table: Table) -> None:
     """How near R-P-P-L comes to Eq. 30, over all pressures."""
     for name, quantity, note in (
-        ("R-P-P-L fully_crushed", "largest deviation of R-P-P-L", f"stiffness {work.size.stiffness[1]:g} σP"),
-        ("R-P-P-L limit", "largest deviation of R-P-P-L, extrapolated to rigid", "as stiffness^(-1/2)"),
+        ("R-P-P-L fully_crushed", "R-P-P-L", f"stiffness {work.size.stiffness[1]:g} σP"),
+        ("R-P-P-L limit", "R-P-P-L extrapolated to rigid", "as stiffness^(-1/2)"),
     ):
         worst = float(np.max(np.abs(table[name] / table["Eq. 30"] - 1.0)))
-        work.number("6", f"{quantity} from Eq. 30, P = 1.5-10 MPa", "%", solver=100.0 * worst, note=note)
+        work.number(
+            "6", f"largest deviation from Eq. 30, {quantity}, P = 1.5-10 MPa", "%", solver=100.0 * worst, note=note
+        )
 
 
 def _numbers_6(work: Workshop, table: Table) -> None:

@@ -49,7 +49,8 @@ def _chains() -> list[Curve]:
     rows += [own(f"time step: CFL = {cfl}", f"time.cfl={cfl}") for cfl in (0.2, 0.05, 0.01)]
     for kind, texts in (("reversible", REVERSIBLE), ("plastic", PLASTIC)):
         for c in (0.0, 0.05, 0.2, 1.0, 2.0):
-            viscous = ('viscosity.kind="standard"', f"viscosity.linear={c}", f"viscosity.quadratic={c}")
+            strength = (f"viscosity.linear={c}", f"viscosity.quadratic={c}", f"viscosity.smooth_linear={0.25 * c}")
+            viscous = ('viscosity.kind="standard"', *strength)
             rows.append(own(f"dissipation, 10 {kind}: c1 = c2 = {c}", *viscous, *texts))
     for beta, gamma in ((0.6, 0.603), (2.44, 0.603), (1.22, 0.4), (1.22, 0.8), (5.0, 0.8)):
         hardening = (f"material.foam.beta={beta}", f"material.foam.gamma={gamma}")
