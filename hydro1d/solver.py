@@ -192,6 +192,7 @@ class _Run:
         self.profile_times = set(column.profile_times.tolist())
         self.jumps = {0.0, *column.corners}
         self.looked = state.cycle, state.time
+        self.start = state.copy()
 
     def open(self) -> None:
         """Hand over the state at t = 0."""
@@ -237,7 +238,8 @@ class _Run:
 
     def stretch(self, event: float) -> int:
         """One call of the time loop. Where it breaks down, the blocks before that stand; the block itself is tried again."""
-        start = self.state.copy()
+        start = self.start
+        start.assign(self.state)
         status = self.advance(event, self.steps_per_call())
         if status > layout.PAUSED:
             sound = (self.state.cycle - 1) // BLOCK * BLOCK - start.cycle  # the last cycle is the one that broke down
@@ -319,14 +321,15 @@ class _Run:
 def frame(column: Column, program: Program, state: State) -> Frame:
     """Profiles of the state, all at the time of the stresses: velocities and energies half a kick on."""
     ledger, half = state.ledger, 0.5 * state.ledger[layout.LAST_STEP]
-    scratch = state.copy()
+    scratch = program.scratch(state)
     velocity, centred = state.velocity[1:-1].copy(), _centred(program, scratch)
     strain = np.empty(column.zones)
     for slab in column.slabs:
         nodes = state.displacement[slab.first : slab.first + slab.zones + 1]
         strain[slab.part] = (nodes[:-1] - nodes[1:]) / slab.size
     jump = velocity[:-1] - velocity[1:] + centred[:-1] - centred[1:]
-    scratch.energy[:] = state.energy + 0.5 * half * state.force * jump / column.zone_mass
+    energy = state.energy + 0.5 * half * state.force * jump / column.zone_mass
+    scratch.energy[:] = energy
     stress = program.stress(scratch)
     fields = {
         "position": column.node_coordinate + state.displacement,
@@ -336,7 +339,7 @@ def frame(column: Column, program: Program, state: State) -> Frame:
         "stress": stress,
         "viscosity": state.force - stress,
         "density": np.concatenate([np.full(s.zones, s.law.density) for s in column.slabs]) / (1.0 - strain),
-        "internal_energy": scratch.energy,
+        "internal_energy": energy,
         "largest_strain": state.material[0].copy(),
     }
     for name in [variable.name for variable in column.zone_history[1:]]:

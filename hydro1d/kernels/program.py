@@ -47,6 +47,7 @@ class Program:
         self.rows = np.zeros((row_capacity + 1, self.columns))
         self.probe_table, self.probe_weights = _locate_probes(column)
         self.probe_rows = np.zeros((row_capacity + 1, len(column.probes), 4))
+        self._scratch: State | None = None
         self._bind()
 
     def _bind(self) -> None:
@@ -62,6 +63,13 @@ class Program:
         self.addresses = np.array([where for _, where in kernels], dtype=np.int64)
         self._zone_functions = [build.function(int(where), zone_places.SIGNATURE) for _, where in kernels[: len(slabs)]]
         self._march = build.function(march_address(), layout.SIGNATURE)
+
+    def scratch(self, state: State) -> State:
+        """A copy of the state that lives until the next call."""
+        if self._scratch is None:
+            self._scratch = state.copy()
+        self._scratch.assign(state)
+        return self._scratch
 
     def advance(self, state: State, *, stop: float, steps: int, row_at_stop: bool) -> int:
         """Step until ``stop`` (s), ``steps`` steps or full rows; returns a status of `kernels.march`."""
@@ -116,7 +124,7 @@ def _pointers(arrays: tuple) -> tuple:
     """Addresses of the arrays, or, where kernels run as Python, the arrays as a pointer sees them: flat."""
     if build.interpreted():
         return tuple(array.reshape(-1) if isinstance(array, np.ndarray) else array for array in arrays)
-    return tuple(array.ctypes.data for array in arrays)
+    return tuple(array.__array_interface__["data"][0] for array in arrays)  # a third of the time of `ctypes.data`
 
 
 def _remembered(column: Column) -> int:
