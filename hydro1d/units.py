@@ -275,3 +275,12 @@ def _all_errors(
             if not error["loc"] or error["loc"][0] not in refused
         ]
     return ValidationError.from_exception_data(cls.__name__, errors)
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is a plain number, without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

@@ -156,17 +156,9 @@ def _list(texts: list[str]) -> list[str]:
 
 def _times(texts: list[str]) -> list[float]:
     from hydro1d.errors import DeckError
-    from hydro1d.units import convert
+    from hydro1d.units import convert, is_number
 
     try:
-        return [convert(float(text) if _is_number(text) else text, "s") for text in _list(texts)]
+        return [convert(float(text) if is_number(text) else text, "s") for text in _list(texts)]
     except ValueError as error:
         raise DeckError(f"--time: {error}") from error
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

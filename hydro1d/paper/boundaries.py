@@ -31,7 +31,9 @@ from hydro1d.sweep import Column, Table
 
 LINEAR_TOP = 5.4e6  # Pa: Eq. 39 ends at 5.5 MPa
 PLASTIC_TOP = 4.2e6  # Pa: above, plastic springs lock so near to the pole of Eq. 38 that their steps never end
-FINE_CHAIN = ("time.cfl=0.02",)  # at 10 MPa springs come within 1e-15 of the pole; critical durations are sure to some 10 % there
+FINE_CHAIN = (
+    "time.cfl=0.02",
+)  # at 10 MPa springs come within 1e-15 of the pole; critical durations are sure to some 10 % there
 TARGETS = (2.4e6, 3.6e6, 10e6)  # Pa
 
 

@@ -15,7 +15,7 @@ from hydro1d.deck import Deck
 from hydro1d.deck.messages import one_of, suggestion
 from hydro1d.store import Run
 from hydro1d.sweep.energy import elastic_energy
-from hydro1d.units import UnitError, convert
+from hydro1d.units import UnitError, convert, is_number
 from hydro1d.variables import HISTORY
 
 _CALL = re.compile(r"\s*([A-Za-z_]\w*)\s*(?:\(\s*([^()]*?)\s*\))?\s*")
@@ -214,7 +214,7 @@ def _reduction(name: str, column: str) -> Quantity:
 
 def _arrival(name: str, argument: str) -> Quantity:
     try:
-        position = convert(float(argument) if _is_number(argument) else argument, "m")
+        position = convert(float(argument) if is_number(argument) else argument, "m")
     except UnitError as error:
         raise ValueError(f"{name} takes a Lagrangian position such as 0.5 m: {error}") from None
     column, sign = _ARRIVALS[name]
@@ -239,11 +239,3 @@ def _arrival(name: str, argument: str) -> Quantity:
     return Quantity(
         f"{name}({argument})", "s", f"arrival of the {column.replace('_position', '')} at {position:g} m", take
     )
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
