@@ -14,10 +14,10 @@ from hydro1d.kernels.memory import placed
 class State:
     """All that changes with time.
 
-    ledger: clock, sums and maxima, see `kernels.march`. velocity (zones + 3,) at half a step before the next kick, with a
-    ghost at each end; displacement (zones + 1,); energy (zones,) specific; force (zones,) σ + q; material (1 + history
-    variables, zones), the largest strain first; memory (2, ·) of the boundaries; numbers (layers, ·), whose running maxima
-    count.
+    ledger: clock, sums and maxima, see `kernels.layout`. velocity (zones + 3,) at half a step before the next kick, with a
+    ghost at each end; displacement (zones + 1,); energy (zones,) specific; force (zones,) σ + q; viscosity (zones,) q;
+    material (1 + history variables, zones), the largest strain first; memory (2, ·) of the boundaries; numbers (layers, ·),
+    whose running maxima count.
     """
 
     ledger: np.ndarray
@@ -25,13 +25,14 @@ class State:
     displacement: np.ndarray
     energy: np.ndarray
     force: np.ndarray
+    viscosity: np.ndarray
     material: np.ndarray
     memory: np.ndarray
     numbers: np.ndarray
 
     def __post_init__(self) -> None:
         # The node pass goes through displacements and velocities in whole cache lines from node 1 on.
-        starts = {"velocity": 2, "displacement": 1, "energy": 0, "force": 0, "material": 0}
+        starts = {"velocity": 2, "displacement": 1, "energy": 0, "force": 0, "material": 0, "viscosity": 0}
         for place, (name, first) in enumerate(starts.items()):
             setattr(self, name, placed(getattr(self, name), place, first))
 

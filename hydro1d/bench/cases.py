@@ -115,6 +115,7 @@ def refined(state: State, parts: int) -> State:
             "displacement": np.interp(fine, nodes, state.displacement),
             "energy": np.repeat(state.energy, parts),
             "force": np.repeat(state.force, parts),
+            "viscosity": np.repeat(state.viscosity, parts),
             "material": np.repeat(state.material, parts, axis=1),
         }
     )

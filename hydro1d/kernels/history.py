@@ -42,7 +42,7 @@ def record(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
     """One row of the history, and of the probes. The state is not touched; `centred` takes the velocities at that time."""
     ledger, half = a.ledger, 0.5 * a.ledger[LAST_STEP]
     row = offset(a.rows, place * a.columns)
-    work, impulse = centre_ends(a, velocity, centred, half)
+    work, impulse = centre_ends(a, velocity, centred, half, offset(row, 21))
     kinetic, momentum, exchange = centre_nodes(a, velocity, centred, half)
     stored, uncrushed = sum_zones(a)
     internal = stored - 0.5 * half * exchange
@@ -57,8 +57,6 @@ def record(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
     row[15], row[16], row[17] = ledger[PEAK_STRESS], ledger[PEAK_LEFT], ledger[PEAK_RIGHT]
     row[18], row[19] = fronts(a)
     row[20] = uncrushed
-    for k in range(2 * MEMORY):
-        row[21 + k] = a.memory[k]
     for k in range(a.probes[0]):
         look(a, k, velocity, centred, half, offset(a.probe_rows, (place * a.probes[0] + k) * 4))
 
@@ -74,8 +72,8 @@ def push_end(a: Arrays, side: int, velocity: Any, memory: Any, step: float) -> N
     call(a.addresses, which, offset(a.parameters, a.layers[which * LAYER + PARAMETERS]), end, memory, a.out)
 
 
-def centre_ends(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[float, float]:
-    """Velocities of the end nodes half a kick on; boundary work and impulse up to then."""
+def centre_ends(a: Arrays, velocity: Any, centred: Any, half: float, remembered: Any) -> tuple[float, float]:
+    """Velocities of the end nodes half a kick on, and what the boundaries remember; boundary work and impulse up to then."""
     work, impulse = a.ledger[WORK], a.ledger[IMPULSE]
     for side in range(2):
         node, sign = (0, 1.0) if side == 0 else (a.zones, -1.0)
@@ -83,6 +81,8 @@ def centre_ends(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[fl
         for k in range(MEMORY):
             scratch[k] = a.memory[side * MEMORY + k]
         push_end(a, side, velocity, scratch, 0.0)
+        for k in range(MEMORY):
+            remembered[side * MEMORY + k] = scratch[k]
         pushed = a.out[FORCE]
         centred[node + 1] = sign * a.out[VELOCITY]
         work += pushed * 0.5 * sign * (velocity[node + 1] + centred[node + 1]) * half
@@ -143,7 +143,7 @@ def look(a: Arrays, probe: int, velocity: Any, centred: Any, half: float, seen: 
     energy[0] = a.energy[zone] + 0.5 * half * a.force[zone] * jump / numbers[ZONE_MASS]
     call(
         a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(velocity, zone),
-        offset(velocity, zone), offset(a.displacement, zone), energy, stress, offset(a.state, zone), a.out, a.out,
+        offset(velocity, zone), offset(a.displacement, zone), energy, stress, a.out, offset(a.state, zone), a.out, a.out,
         a.out, a.out, -1, a.zones, a.out,
     )  # fmt: skip
     moved = (1.0 - share) * a.displacement[zone] + share * a.displacement[zone + 1]

@@ -11,10 +11,10 @@ from hydro1d.kernels import zones as zone_places
 TIME, LAST_STEP, FREE_STEP, NEXT_STEP, CYCLE = range(5)
 WORK, IMPULSE, VISCOUS_WORK, LARGEST_INPUT = range(5, 9)
 PEAK_STRESS, PEAK_LEFT, PEAK_RIGHT, FIRST_ENERGY = range(9, 13)
-LEFT_FRONT, RIGHT_FRONT, FIRST_STEP = range(13, 16)
-STOP, STEPS, CADENCE, ROW_AT_STOP, CFL = range(16, 21)
-STATUS, ROWS, LIMITING_LAYER = range(21, 24)
-LEDGER = 24
+LEFT_FRONT, RIGHT_FRONT, FIRST_STEP, PACE_TIME = range(13, 17)
+STOP, STEPS, CADENCE, ROW_AT_STOP, CFL = range(17, 22)
+STATUS, ROWS, LIMITING_LAYER = range(22, 25)
+LEDGER = 25
 
 # What a call answers as its status
 REACHED, PAUSED, NOT_FINITE, INVERTED, COLLAPSED = range(5)
@@ -35,8 +35,8 @@ class Arrays(NamedTuple):
     """What the time loop works on.
 
     Over nodes: displacement, mass, inverse_mass, coordinate; velocity and spare, with a ghost at each end, so node i stands
-    at i + 1. Over zones: energy, force (σ + q), state (largest strain, then the laws' history, `zones` apart), and what
-    `zones.foam_kernel` remembers. rows and probe_rows: history as it is recorded.
+    at i + 1. Over zones: energy, force (σ + q), viscosity (q), state (largest strain, then the laws' history,
+    `zones` apart), and what `zones.foam_kernel` remembers. rows and probe_rows: history as it is recorded.
     """
 
     ledger: Any
@@ -52,6 +52,7 @@ class Arrays(NamedTuple):
     displacement: Any
     energy: Any
     force: Any
+    viscosity: Any
     state: Any
     curve: Any
     tangents: Any
@@ -69,4 +70,4 @@ class Arrays(NamedTuple):
     columns: int
 
 
-SIGNATURE = "pqq" + 19 * "p" + "qpp" + "iii"  # of `Arrays`; p: pointer to double, q: to integers, i: integer
+SIGNATURE = "pqq" + 20 * "p" + "qpp" + "iii"  # of `Arrays`; p: pointer to double, q: to integers, i: integer

@@ -30,6 +30,7 @@ from hydro1d.kernels.layout import (
     NEXT_STEP,
     NOT_FINITE,
     NUMBERS,
+    PACE_TIME,
     PARAMETERS,
     PAUSED,
     PEAK_LEFT,
@@ -54,20 +55,25 @@ from hydro1d.kernels.primitives import call, offset
 
 BLOCK = 512  # zones whose arrays stay in the first-level cache between the node pass and the zone pass
 GROWTH = 1.1  # most by which a step exceeds the one before
+LOOK = 100_000  # cycles between looks at the pace
+SLOWEST_PACE = (
+    1e-4  # of the first step, on the mean between two looks: a zone that is crushed to next to nothing keeps its
+)
+# stiffness, and the run would never end
 SMALLEST = 1e-12  # of the first step: a mass-spring chain may bounce at 1e-10 of it and come back
 
 
 def march(
     ledger: Any, layers: Any, addresses: Any, parameters: Any, numbers: Any, end_numbers: Any, memory: Any, out: Any,
-    velocity: Any, spare: Any, displacement: Any, energy: Any, force: Any, state: Any, curve: Any, tangents: Any,
-    stiffnesses: Any, speeds: Any, mass: Any, inverse_mass: Any, coordinate: Any, rows: Any, probes: Any,
+    velocity: Any, spare: Any, displacement: Any, energy: Any, force: Any, viscosity: Any, state: Any, curve: Any,
+    tangents: Any, stiffnesses: Any, speeds: Any, mass: Any, inverse_mass: Any, coordinate: Any, rows: Any, probes: Any,
     probe_weights: Any, probe_rows: Any, layer_count: int, zones: int, columns: int,
 ) -> None:  # fmt: skip
     """Step until the ledger's stop time, its number of steps, full rows, or a breakdown. The arguments are `Arrays`."""
     a = Arrays(
         ledger, layers, addresses, parameters, numbers, end_numbers, memory, out, velocity, spare, displacement, energy,
-        force, state, curve, tangents, stiffnesses, speeds, mass, inverse_mass, coordinate, rows, probes, probe_weights,
-        probe_rows, layer_count, zones, columns,
+        force, viscosity, state, curve, tangents, stiffnesses, speeds, mass, inverse_mass, coordinate, rows, probes,
+        probe_weights, probe_rows, layer_count, zones, columns,
     )  # fmt: skip
     steps, cadence, capacity = int(ledger[STEPS]), int(ledger[CADENCE]), int(ledger[ROWS])
     recorded, taken = 0, 0
@@ -158,7 +164,7 @@ def sweep(a: Arrays, before: Any, after: Any, kick: float, step: float) -> tuple
             numbers[TOP_STRAIN] = max(numbers[TOP_STRAIN], out[zone_places.STRAIN])
             strain = max(strain, out[zone_places.STRAIN])
             ledger[PEAK_STRESS] = max(ledger[PEAK_STRESS], out[zone_places.STRESS])
-            ledger[VISCOUS_WORK] += out[zone_places.VISCOUS_POWER] * step
+            ledger[VISCOUS_WORK] += 0.5 * out[zone_places.VISCOUS_POWER] * kick
         size = numbers[SIZE] / (math.sqrt(stiffness + speed * speed) + speed)
         if stable == stable and not size >= stable:
             stable, limiting = size, layer
@@ -184,8 +190,8 @@ def push_zones(a: Arrays, layer: int, numbers: Any, before: Any, after: Any, sta
     call(
         a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(after, start),
         offset(before, start), offset(a.displacement, start), offset(a.energy, start), offset(a.force, start),
-        offset(a.state, start), offset(a.curve, start), offset(a.tangents, start), offset(a.stiffnesses, start),
-        offset(a.speeds, start), end - start, a.zones, a.out,
+        offset(a.viscosity, start), offset(a.state, start), offset(a.curve, start), offset(a.tangents, start),
+        offset(a.stiffnesses, start), offset(a.speeds, start), end - start, a.zones, a.out,
     )  # fmt: skip
 
 
@@ -206,4 +212,9 @@ def close_step(a: Arrays, step: float, stable: float, strain: float, layer: int)
         return NOT_FINITE
     if ledger[NEXT_STEP] < SMALLEST * ledger[FIRST_STEP] or ledger[TIME] + ledger[NEXT_STEP] == ledger[TIME]:
         return COLLAPSED
+    if int(ledger[CYCLE]) % LOOK == 0:
+        pace = (ledger[TIME] - ledger[PACE_TIME]) / LOOK
+        ledger[PACE_TIME] = ledger[TIME]
+        if pace < SLOWEST_PACE * ledger[FIRST_STEP]:
+            return COLLAPSED
     return REACHED if ledger[TIME] >= ledger[STOP] else PAUSED

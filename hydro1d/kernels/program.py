@@ -78,8 +78,8 @@ class Program:
         ledger[layout.ROW_AT_STOP], ledger[layout.ROWS] = row_at_stop, self.row_capacity
         arrays = (
             ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
-            state.velocity, self.spare, state.displacement, state.energy, state.force, state.material, self.curve,
-            self.tangents, self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass,
+            state.velocity, self.spare, state.displacement, state.energy, state.force, state.viscosity, state.material,
+            self.curve, self.tangents, self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass,
             self.column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
         )  # fmt: skip
         self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
@@ -105,7 +105,7 @@ class Program:
         arrays = (
             self.parameters[self.layers[layer, layout.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
             state.velocity[first:], state.displacement[first:], state.energy[first:], force[first:],
-            state.material.reshape(-1)[first:], self.curve[first:], self.tangents[first:],
+            state.viscosity[first:], state.material.reshape(-1)[first:], self.curve[first:], self.tangents[first:],
             self.stiffnesses[first:], self.speeds[first:],
         )  # fmt: skip
         out = np.zeros(layout.OUT)

@@ -12,13 +12,14 @@ from typing import Any
 from hydro1d.kernels.primitives import accumulate, gather, larger, scatter
 
 # p: pointer to double, i: integer
-SIGNATURE = "ppppppppppppiip"
+SIGNATURE = "pppppppppppppiip"
 
 # Places in `numbers`, the scalars of a call ...
 STEP, KICK, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, SMOOTH_LINEAR, QUADRATIC = range(8)
 NUMBERS = 8
 AFRESH = NUMBERS  # not 0 where nothing that `foam_kernel` remembers holds
-# ... and in `out`, what comes back: largest stiffness/ρ0, largest viscous speed, stress and strain, work of the viscosity.
+# ... and in `out`, what comes back: largest stiffness/ρ0, largest viscous speed, stress and strain, and Σ q (Δv before and
+# after the kick), twice the power of the viscosity that acted in it: its exact share of the energy.
 STIFFNESS, VISCOUS_SPEED, STRESS, STRAIN, VISCOUS_POWER = range(5)
 RESULTS = 5
 
@@ -29,7 +30,7 @@ SHORT = 256  # zones; in a column no longer than this the front is a large share
 _DOC = """Advance ``zones`` zones over a step.
 
 velocity, velocity_before (node i at i + 1; at n + ½ and n − ½) and displacement (new) are over nodes; energy (specific) and
-force (σ + q) over zones; state holds the largest strain and then the law's history, each `stride` long.
+force (σ + q) and viscosity (q) over zones; state holds the largest strain and then the law's history, each `stride` long.
 curve, tangents, stiffnesses and speeds are what `foam_kernel` remembers: stress and tangent of the loading curve, stiffness,
 speed of the linear viscosity. The number of zones is negative to observe: `force` becomes the stress alone, nothing else
 changes. A NaN anywhere comes back as the stiffness.
@@ -41,7 +42,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
 
     def sweep(
         parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
-        state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
+        viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
         out: Any,
     ) -> None:  # fmt: skip
         law = unpack(parameters)
@@ -59,6 +60,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             jump_before = velocity_before[i + 1] - velocity_before[i + 2]
             gained = energy[i] + force[i] * to_kick * (jump_before + jump)
             energy[i] = gained
+            power = accumulate(power, viscosity[i] * (jump_before + jump))
             now = gained + force[i] * to_strain * jump
             history = gather(state, stride + i, stride, history_count)
             stress, tangent, stiffness, smooth, history = law.point(strain, largest, jump * per_size, now, history)
@@ -66,11 +68,11 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             approach = closing / law.room(strain, closing)
             crowding = quadratic * approach
             speed = (smooth_linear if smooth else linear) * math.sqrt(tangent * per_density) + crowding
-            viscosity = 0.0 if law.is_open(stress) else density * closing * speed
+            viscosity[i] = 0.0 if law.is_open(stress) else density * closing * speed
             state[i] = largest
             scatter(state, stride + i, stride, history)
-            force[i] = stress + viscosity
-            power = accumulate(power, viscosity * coming_jump(jump_before, jump) + 0.0 * force[i])
+            force[i] = stress + viscosity[i]
+            power = accumulate(power, 0.0 * force[i])
             top_stiffness = larger(top_stiffness, stiffness)
             top_speed = larger(top_speed, speed + max(quadratic, FASTEST_CLOSING) * approach)
             top_stress = larger(top_stress, stress)
@@ -90,7 +92,7 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
 
     def sweep(
         parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
-        state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
+        viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
         out: Any,
     ) -> None:  # fmt: skip
         law = unpack(parameters)
@@ -116,8 +118,9 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
                     # No zone's stress is ever above its loading curve, nor its strain above its largest.
                     top_stress = larger(top_stress, curve[i])
                     top_strain = larger(top_strain, state[i])
-            stiffness, speed, work = push(law, numbers, velocity, velocity_before, displacement, energy, force, state,
-                                          curve, tangents, stiffnesses, speeds, start, end, smooth, turned)  # fmt: skip
+            stiffness, speed, work = push(law, numbers, velocity, velocity_before, displacement, energy, force,
+                                          viscosity, state, curve, tangents, stiffnesses, speeds, start, end,
+                                          smooth, turned)  # fmt: skip
             top_stiffness, top_speed, power = larger(top_stiffness, stiffness), larger(top_speed, speed), power + work
         answer(out, top_stiffness * per_density, top_speed, top_stress, top_strain, power)
 
@@ -126,26 +129,28 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
 
 
 def push(
-    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any, state: Any,
-    curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int, smooth: int, turned: int,
+    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
+    viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int,
+    smooth: int, turned: int,
 ) -> tuple[float, float, float]:  # fmt: skip
     """Energy and force of zones whose loading curve is known: a loop without limiter or square root where none needs them."""
     if smooth != 0 and turned != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
-                          stiffnesses, speeds, start, end, True, True)  # fmt: skip
+        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+                          tangents, stiffnesses, speeds, start, end, True, True)  # fmt: skip
     if smooth != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
-                          stiffnesses, speeds, start, end, True, False)  # fmt: skip
+        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+                          tangents, stiffnesses, speeds, start, end, True, False)  # fmt: skip
     if turned != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
-                          stiffnesses, speeds, start, end, False, True)  # fmt: skip
-    return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, state, curve, tangents,
-                          stiffnesses, speeds, start, end, False, False)  # fmt: skip
+        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+                          tangents, stiffnesses, speeds, start, end, False, True)  # fmt: skip
+    return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+                          tangents, stiffnesses, speeds, start, end, False, False)  # fmt: skip
 
 
 def push_zones(
-    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any, state: Any,
-    curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int, limited: bool, turned: bool,
+    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
+    viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int,
+    limited: bool, turned: bool,
 ) -> tuple[float, float, float]:  # fmt: skip
     """The loop of `push`. Where the tangent of the loading curve has changed, so do stiffness and speed.
 
@@ -164,6 +169,7 @@ def push_zones(
         jump = velocity[i + 1] - velocity[i + 2]
         jump_before = velocity_before[i + 1] - velocity_before[i + 2]
         energy[i] += force[i] * to_kick * (jump_before + jump)
+        power = accumulate(power, viscosity[i] * (jump_before + jump))
         strain = (displacement[i] - displacement[i + 1]) * per_size
         stress = law.stress_below(state[i] - strain, curve[i], stiffnesses[i])
         closing = max(jump, 0.0)
@@ -172,9 +178,9 @@ def push_zones(
         approach = closing / law.room(strain, closing)
         crowding = quadratic * approach
         speed = speeds[i] + crowding
-        viscosity = 0.0 if law.is_open(stress) else density * closing * speed
-        force[i] = stress + viscosity
-        power = accumulate(power, viscosity * coming_jump(jump_before, jump) + 0.0 * force[i])
+        viscosity[i] = 0.0 if law.is_open(stress) else density * closing * speed
+        force[i] = stress + viscosity[i]
+        power = accumulate(power, 0.0 * force[i])
         top_stiffness = larger(top_stiffness, stiffnesses[i])
         top_speed = larger(top_speed, speed + max(quadratic, FASTEST_CLOSING) * approach)
     return top_stiffness, top_speed, power
@@ -198,11 +204,6 @@ def shared_jump(velocity: Any, i: int, jump: float) -> float:
     left, right = velocity[i] - velocity[i + 1], velocity[i + 2] - velocity[i + 3]
     both, span = max(left, 0.0) * max(right, 0.0), left + right
     return min(both * span / (span * span - 2.0 * both + 1e-300), max(jump, 0.0))
-
-
-def coming_jump(before: float, jump: float) -> float:
-    """The jump at the middle of the coming kick, in which the viscosity does its work, continued from the last two."""
-    return 1.5 * jump - 0.5 * before
 
 
 def answer(out: Any, stiffness: float, speed: float, stress: float, strain: float, power: float) -> None:
