@@ -95,6 +95,7 @@ def initial_state(column: Column, program: Program) -> State:
         density = slab.law.density
         numbers[: zone_places.NUMBERS] = (0.0, 0.0, 1.0 / slab.size, 1.0 / density, density, *viscosity)
         numbers[layout.CRUSHED_STRAIN], numbers[layout.SIZE] = slab.law.crushed_strain, slab.size
+        numbers[layout.YIELD_STRAIN] = getattr(slab.law, "yield_strain", 0.0)
         numbers[layout.ZONE_MASS] = slab.size * density
         state.energy[slab.part] = slab.law.initial_energy
         for k, value in enumerate(slab.law.history.values()):

@@ -28,6 +28,7 @@ from hydro1d.kernels.layout import (
     TOP_STRAIN,
     VISCOUS_WORK,
     WORK,
+    YIELD_STRAIN,
     ZONE_MASS,
     ZONES,
     Arrays,
@@ -154,9 +155,9 @@ def look(a: Arrays, probe: int, velocity: Any, centred: Any, half: float, seen: 
 
 
 def crushed_strain(numbers: Any) -> float:
-    """The layer's densification strain, or half of its largest strain so far."""
+    """The layer's densification strain, or half of its largest strain so far; what has not yielded is not crushed."""
     given = numbers[CRUSHED_STRAIN]
-    return given if given == given else 0.5 * numbers[TOP_STRAIN]
+    return given if given == given else max(0.5 * numbers[TOP_STRAIN], numbers[YIELD_STRAIN])
 
 
 def fronts(a: Arrays) -> tuple[float, float]:

@@ -22,8 +22,8 @@ REACHED, PAUSED, NOT_FINITE, INVERTED, COLLAPSED = range(5)
 # Places in the layer table (integers) and in the layers' numbers behind the zone kernel's own.
 FIRST_ZONE, ZONES, PARAMETERS = range(3)
 LAYER = 3
-CRUSHED_STRAIN, TOP_STRAIN, SIZE, ZONE_MASS = range(zone_places.NUMBERS + 1, zone_places.NUMBERS + 5)
-NUMBERS = zone_places.NUMBERS + 5
+CRUSHED_STRAIN, YIELD_STRAIN, TOP_STRAIN, SIZE, ZONE_MASS = range(zone_places.NUMBERS + 1, zone_places.NUMBERS + 6)
+NUMBERS = zone_places.NUMBERS + 6
 
 END = 10  # numbers of a `boundaries.base.End`
 

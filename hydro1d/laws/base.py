@@ -65,7 +65,7 @@ class Law(Component):
 
     @derived
     def crushed_strain(self) -> float:
-        """A zone is crushed when its largest strain passes this; NaN: half of the strongest strain so far in its layer."""
+        """A zone is crushed when its largest strain passes this; NaN: half of the strongest so far in its layer, past yield."""
         return math.inf
 
 

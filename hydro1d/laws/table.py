@@ -67,9 +67,11 @@ class Table(Foam):
         segment = max(below - 1, 0)
         (strain, stress), (end, end_stress) = points[segment], points[min(segment + 1, len(points) - 1)]
         slope = (end_stress - stress) / (end - strain) if end > strain else 0.0
-        meet = (stress - slope * strain) / (self.modulus - slope)
-        if not (slope < self.modulus and meet > 0.0):
-            raise ValueError("curve starts steeper than the modulus")
+        meet = (stress - slope * strain) / (self.modulus - slope) if slope < self.modulus else 0.0
+        if slope > self.modulus * (1.0 + 1e-9):
+            raise ValueError(f"curve rises by {slope:g} Pa between strains {strain:g} and {end:g}, above the modulus")
+        if meet <= 0.0:  # a curve that is straight from the origin, or has a toe
+            return np.vstack([[0.0, 0.0], points[below:]])
         rest = points[points[:, 0] > meet * (1.0 + 1e-12)]
         return np.vstack([[0.0, 0.0], [meet, self.modulus * meet], rest])
 

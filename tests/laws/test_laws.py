@@ -213,3 +213,14 @@ def test_room_shrinks_and_stays_positive(name):
 def test_a_name_that_nobody_has_is_answered_with_those_there_are():
     with pytest.raises(ValueError, match=r"no law is called 'eppph'; there are .*epph-tangent"):
         find("law", "eppph")
+
+
+@pytest.mark.parametrize("modulus", [25e6, 26e6, 100e6])
+@pytest.mark.parametrize(
+    "start", [[(0.01, 0.25e6), (0.02, 0.5e6)], [(0.01, 0.1e6), (0.02, 0.3e6), (0.03, 0.5e6)]], ids=["line", "toe"]
+)
+def test_a_measured_curve_may_be_straight_from_the_origin_or_have_a_toe(start, modulus):
+    law = Table(density=50.0, modulus=modulus, curve=((0.0, 0.0), *start, (0.3, 0.8e6), (0.7, 2e6)))
+    for strain, stress in (*start, (0.3, 0.8e6), (0.7, 2e6)):
+        assert law.loading(strain)[0] == pytest.approx(stress)
+    assert law.loading(0.005)[0] == pytest.approx(0.5 * start[0][1])

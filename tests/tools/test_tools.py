@@ -22,7 +22,7 @@ def tool(name, *arguments, cwd=None):
 
 
 def test_every_script_beside_these_is_tested_here():
-    others = {"bench", "viscosity_study"}  # they calculate
+    others = {"bench", "viscosity_study", "fuzz_atheris", "mutate"}  # they calculate, or test
     assert {path.stem for path in TOOLS.glob("*.py")} == {*SCRIPTS, *others}
 
 
