@@ -11,22 +11,20 @@ from __future__ import annotations
 import argparse
 import ast
 import copy
-import importlib.abc
-import importlib.util
+import importlib
 import math
 import os
 import random
 import resource
 import sys
 from collections.abc import Iterator
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
-import hypothesis  # noqa: F401  (loaded once, for all mutants)
-import numpy as np  # noqa: F401
-import pydantic  # noqa: F401
 import pytest
-import scipy.integrate
-import scipy.optimize  # noqa: F401
+
+for library in ("hypothesis", "numpy", "pydantic", "scipy.integrate", "scipy.optimize"):
+    importlib.import_module(library)  # once, for all mutants
 
 SWAPS: dict[type, type] = {
     **{ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.Pow: ast.Mult},
@@ -39,9 +37,8 @@ SILENT = ("annotation", "returns", "decorator_list", "msg")
 
 def places(node: ast.AST) -> Iterator[ast.AST]:
     """Every node whose change a test should notice."""
-    if isinstance(node, ast.JoinedStr | ast.Raise) or (
-        isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-    ):
+    is_docstring = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    if is_docstring or isinstance(node, ast.JoinedStr | ast.Raise):
         return
     yield node
     for name, value in ast.iter_fields(node):
@@ -63,10 +60,9 @@ def change(node: ast.AST) -> str:
         return f"{type(old).__name__} → {type(new).__name__}" if type(new) is not type(old) else ""
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
         old = node.op
-        if isinstance(old, ast.Not):
-            node.operand = ast.UnaryOp(old, node.operand)
-        else:
-            node.op = ast.UAdd()
+        node.op, node.operand = (
+            (old, ast.UnaryOp(old, node.operand)) if isinstance(old, ast.Not) else (ast.UAdd(), node.operand)
+        )
         return f"{type(old).__name__} dropped"
     if isinstance(node, ast.Constant) and isinstance(node.value, bool | int | float):
         old = node.value
@@ -97,20 +93,14 @@ def mutated(path: Path, number: int) -> ast.Module:
     return ast.fix_missing_locations(tree)
 
 
-class Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
-    """Brings the mutant in under the module's own name."""
+def bring_in(path: Path, tree: ast.Module) -> None:
+    """From now on this process imports the tree instead of the file."""
+    real = SourceFileLoader.get_code
 
-    def __init__(self, path: Path, tree: ast.Module) -> None:
-        self.path, self.tree = path, tree
-        self.name = ".".join(path.with_suffix("").parts)
+    def get_code(self: SourceFileLoader, name: str) -> object:
+        return compile(tree, self.path, "exec") if Path(self.path) == path.resolve() else real(self, name)
 
-    def find_spec(self, name, path, target=None):  # noqa: D102 (importlib's)
-        if name == self.name:
-            return importlib.util.spec_from_file_location(name, self.path.resolve(), loader=self)
-        return None
-
-    def exec_module(self, module):  # noqa: D102 (importlib's)
-        exec(compile(self.tree, str(self.path), "exec"), module.__dict__)
+    SourceFileLoader.get_code = get_code  # type: ignore[method-assign]
 
 
 def tests_of(path: Path, tests: list[Path]) -> list[str]:
@@ -129,7 +119,7 @@ def fails(path: Path, number: int, tests: list[str], seconds: float) -> tuple[bo
         code = 1
         try:
             if number >= 0:
-                sys.meta_path.insert(0, Loader(path, mutated(path, number)))
+                bring_in(path, mutated(path, number))
             code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", *tests]))
         finally:
             os._exit(code)
@@ -152,10 +142,9 @@ def main() -> int:
     survivors, tests, limits = [], {file: tests_of(file, args.tests) for file, *_ in chosen}, {}
     for file, wanted in tests.items():
         failed, seconds = fails(file, -1, wanted, 3600.0)
-        limits[file] = 3.0 * seconds + 5.0  # an endless loop is noticed
         if failed:
-            print(f"{file}: its tests fail without a mutant")
-            return 2
+            sys.exit(f"{file}: its tests fail without a mutant")
+        limits[file] = 3.0 * seconds + 5.0  # an endless loop is noticed
     for count, (file, number, line, what) in enumerate(sorted(chosen), 1):
         if not fails(file, number, tests[file], limits[file])[0]:
             survivors.append((file, line, what))

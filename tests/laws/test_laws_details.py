@@ -116,7 +116,7 @@ def test_which_curves_lock():
     flat = Table(density=50.0, modulus=1e7, curve=((0.1, 1e5), (0.6, 1.02e5), (0.8, 1e6)))
     steep = Table(density=50.0, modulus=1e7, curve=((0.1, 1e5), (0.5, 2.5e5), (0.8, 1e6)))
     assert (flat.locks, steep.locks) == (1.0, 0.0)
-    assert steep.room(0.7, 1e-3) == pytest.approx(0.3)
+    assert steep.room(0.7, 1e-3) == pytest.approx(0.3) and steep.room(-0.5, 1e-3) == 1.0
     assert (
         TRILINEAR.locks == 1.0 and EPH(density=1.0, modulus=1e6, yield_stress=1e4, hardening_modulus=1e5).locks == 0.0
     )
@@ -191,6 +191,12 @@ def test_a_gas_by_hand():
     assert law.room(0.2, 1.0) == pytest.approx(0.8 * 8.0 / 2.5)
 
 
+def test_eph_by_hand():
+    law = EPH(density=1.0, modulus=1e6, yield_stress=1e4, hardening_modulus=1e5)
+    assert law.yield_strain == 0.01 and law.loading(0.005) == (5e3, 1e6)
+    assert law.loading(0.31) == (pytest.approx(1e4 + 1e5 * 0.3), 1e5)
+
+
 def test_rph_by_hand():
     law = RPH(density=51.6, modulus=22e6, plateau_stress=0.8e6, hardening=0.1e6)
     for strain in (0.2, 0.6, 0.95):
@@ -217,12 +223,21 @@ def test_the_corners_of_a_table_lie_on_line_and_curve(curve):
     assert law.segments == len(law.corners) - 1 == len(law.slopes) == len(law.strains) == len(law.stresses)
 
 
+@pytest.mark.parametrize("left", [(), ((0.02, 0.5e5),), ((0.01, 0.2e5), (0.02, 0.5e5))])
+def test_a_curve_that_begins_left_of_the_line_meets_it_where_it_crosses(left):
+    law = Table(density=50.0, modulus=1e6, curve=(*left, (0.05, 0.9e5), (0.11, 1e5), (0.5, 2e5)))
+    slope = 0.1e5 / 0.06
+    assert law.yield_strain == pytest.approx((0.9e5 - slope * 0.05) / (1e6 - slope), rel=1e-12)
+    assert law.corners[2].tolist() == [0.11, 1e5]
+
+
 @pytest.mark.parametrize("curve, words", [
     (((0.0, 0.0), (0.5, 1e5)), "two points at least"), (((0.5, 1e5),), "two points at least"),
     (((0.1, 1e5), (0.5, math.inf)), "not a finite number"), (((-0.1, 0.0), (0.5, 1e5)), "rising from 0 or above to below 1"),
     (((0.1, 1e5), (1.0, 2e5)), "to below 1"), (((0.1, 1e5), (0.1, 2e5)), "increase"), (((0.2, 1e5), (0.1, 2e5)), "increase"),
     (((0.1, 2e4), (0.5, 1e4)), "do not fall"), (((0.1, -1.0), (0.5, 1e4)), "from 0 or above"),
-    (((0.1, 0.0), (0.5, 0.0)), "to above 0"), (((0.1, 2e5), (0.2, 3e5)), "never falls below"),
+    (((0.1, 0.0), (0.5, 0.0)), "to above 0"), (((0.1, 0.0), (0.2, 0.0), (0.5, 0.0)), "to above 0"),
+    (((0.1, 2e5), (0.2, 3e5)), "never falls below"),
     (((0.1, 1e5), (0.2, 2e5)), "never falls below"),
 ])  # fmt: skip
 def test_why_a_curve_is_none(curve, words):
