@@ -50,7 +50,7 @@ FAULTS = (
     ),
     Fault(
         "work of the viscosity half a step apart",
-        (("kernels/zones.py", r"(viscosity \* )coming_jump\(jump_before, jump\)", r"\1jump"),),
+        (("kernels/zones.py", r"viscosity\[i\] \* \(jump_before \+ jump\)", r"viscosity[i] * (2.0 * jump_before)"),),
         ("front-energy trilinear-50",),
     ),
     Fault(
