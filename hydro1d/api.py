@@ -74,13 +74,22 @@ def run(
         return _in_memory(deck, column, progress)
     from hydro1d.store import Hdf5Sink, Layout
 
-    state, checkpoint = None, None
+    state, checkpoint, program = None, None, None
     if restart is not None:
-        checkpoint, state = _read_restart(deck, column, Path(restart), force)
+        program = Program(column)
+        checkpoint, state = _read_restart(deck, column, program, Path(restart), force)
     arguments = (Path(output), Layout.of(column), deck.text, deck.resolved(), _attributes(deck))
     sink = Hdf5Sink.resume(checkpoint, *arguments) if checkpoint is not None else Hdf5Sink(*arguments)
     with sink, interruptible() as asked:
-        outcome = solve(column, sink, state, checkpoints=plan, progress=_share(column, progress), asked_to_stop=asked)
+        outcome = solve(
+            column,
+            sink,
+            state,
+            checkpoints=plan,
+            progress=_share(column, progress),
+            program=program,
+            asked_to_stop=asked,
+        )
         saved = None
         if outcome.status == "interrupted" and outcome.state is not None:
             saved = sink.checkpoint(outcome.state)
@@ -119,18 +128,18 @@ def _closing(column: Column, outcome: Outcome) -> dict[str, Any]:
     return {"limiting_layer": column.layer_name[layer], "message": outcome.message}
 
 
-def _read_restart(deck: Deck, column: Column, path: Path, force: bool) -> tuple[Any, State]:
+def _read_restart(deck: Deck, column: Column, program: Program, path: Path, force: bool) -> tuple[Any, State]:
     from hydro1d.store import read_checkpoint, verify_checkpoint
 
     checkpoint = read_checkpoint(path)
     hashes = {layer.material: fingerprint(type(layer.law)) for layer in deck.layers}
     verify_checkpoint(checkpoint, deck.resolved(), hashes, force)
-    return checkpoint, _state_of(column, checkpoint.arrays, path)
+    return checkpoint, _state_of(column, program, checkpoint.arrays, path)
 
 
-def _state_of(column: Column, arrays: Mapping[str, Any], path: Path) -> State:
+def _state_of(column: Column, program: Program, arrays: Mapping[str, Any], path: Path) -> State:
     """The checkpoint's state. Compiled code trusts its shapes, so that not even a forced restart may have others."""
-    for name, needed in initial_state(column, Program(column)).arrays().items():
+    for name, needed in initial_state(column, program).arrays().items():
         shape = arrays[name].shape if name in arrays else None
         if shape != needed.shape:
             found = "none" if shape is None else f"numbers {shape}"

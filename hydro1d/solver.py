@@ -20,10 +20,9 @@ from hydro1d.kernels.program import Program
 from hydro1d.state import State
 
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
-BLOCK = (
-    32  # cycles; stretches begin and end at multiples of it: a block that breaks down is tried again from its start,
-)
-# wherever history and checkpoints have cut the run, and a copy of the start is not made for every step
+# Cycles. Stretches begin and end at multiples of it: a block that breaks down is tried again from its start, wherever
+# history and checkpoints have cut the run, and a copy of the start is not made for every step.
+BLOCK = 32
 RETRIES = 3
 EASE = 1.0 / 16.0  # of the stable step, the first one: what the loads will move is not moving yet
 
@@ -122,7 +121,7 @@ def _started(boundary: Boundary, velocity: float, mass: float, sign: float, side
 
 
 def _first_step(column: Column, program: Program, state: State) -> None:
-    """Forces at t = 0 and the step that they allow; what the boundaries need to know of the zones at the ends."""
+    """Forces at t = 0 and the step that they allow; the first is shorter by `EASE`, and steps grow from there."""
     stable = math.inf
     for layer, slab in enumerate(column.slabs):
         out = program.sweep_layer(state, layer, slab.zones, state.force)
@@ -131,6 +130,7 @@ def _first_step(column: Column, program: Program, state: State) -> None:
         state.ledger[layout.PEAK_STRESS] = max(state.ledger[layout.PEAK_STRESS], out[zone_places.STRESS])
     state.ledger[layout.CFL] = column.cfl
     state.ledger[layout.NEXT_STEP] = state.ledger[layout.FIRST_STEP] = column.cfl * stable
+    state.ledger[layout.FREE_STEP] = EASE * column.cfl * stable / march.GROWTH
     state.ledger[layout.RIGHT_FRONT] = column.zones
     state.ledger[layout.PEAK_LEFT], state.ledger[layout.PEAK_RIGHT] = state.force[0], state.force[-1]
 
@@ -201,8 +201,6 @@ class _Run:
     def to_end(self) -> Outcome:
         """Go from event to event."""
         for event in self.events:
-            if self.state.cycle == 0:
-                self.ease_in()
             status = self.to_event(event)
             if status == layout.PAUSED:
                 return self.outcome("interrupted")
@@ -212,11 +210,6 @@ class _Run:
                 self.sink.profile(frame(self.column, self.program, self.state))
             self.save_if_due()
         return self.outcome("complete")
-
-    def ease_in(self) -> None:
-        """Begin with a short step, which then grows gently."""
-        ledger = self.state.ledger
-        ledger[layout.FREE_STEP] = EASE * ledger[layout.NEXT_STEP] / march.GROWTH
 
     def to_event(self, event: float) -> int:
         """Step to an event, looking up between stretches; PAUSED when asked to stop."""

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from hydro1d.kernels import layout
+from hydro1d.kernels.march import GROWTH
 from hydro1d.kernels.program import Program
 from hydro1d.laws.epph import EPPH
 from hydro1d.state import State
@@ -29,7 +30,7 @@ class Baseline:
 
     def _step(self, s: State) -> None:
         g, mass = s.ledger, self.column.node_mass
-        step = min(g[layout.NEXT_STEP], 1.1 * g[layout.FREE_STEP])
+        step = min(g[layout.NEXT_STEP], GROWTH * g[layout.FREE_STEP])
         g[layout.FREE_STEP] = step
         last = g[layout.LAST_STEP]
         kick = 0.5 * (last + step)

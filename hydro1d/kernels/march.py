@@ -56,10 +56,9 @@ from hydro1d.kernels.primitives import call, offset
 BLOCK = 512  # zones whose arrays stay in the first-level cache between the node pass and the zone pass
 GROWTH = 1.1  # most by which a step exceeds the one before
 LOOK = 100_000  # cycles between looks at the pace
-SLOWEST_PACE = (
-    1e-4  # of the first step, on the mean between two looks: a zone that is crushed to next to nothing keeps its
-)
-# stiffness, and the run would never end
+# Of the first step, on the mean between two looks. A zone that is crushed to next to nothing keeps its stiffness, and the
+# run would never end.
+SLOWEST_PACE = 1e-4
 SMALLEST = 1e-12  # of the first step: a mass-spring chain may bounce at 1e-10 of it and come back
 
 
@@ -113,9 +112,7 @@ def take_step(a: Arrays, before: Any, after: Any, afresh: bool) -> int:
 
 def choose_step(ledger: Any) -> float:
     """The stable step, grown gently, and shortened to meet the stop time: the last two steps share what is left."""
-    step = ledger[NEXT_STEP]
-    if ledger[FREE_STEP] > 0.0:
-        step = min(step, GROWTH * ledger[FREE_STEP])
+    step = min(ledger[NEXT_STEP], GROWTH * ledger[FREE_STEP])
     ledger[FREE_STEP] = step
     left = ledger[STOP] - ledger[TIME]
     if step >= left:

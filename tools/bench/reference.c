@@ -152,8 +152,7 @@ void march(Ledger *g, const Layer *layers, int64_t layer_count, int64_t zones, i
 #endif
     double *after = w, *before = v;
     for (int64_t taken = 0; taken < steps; taken++) {
-        double step = g->next_step, left = g->stop - g->time;
-        if (g->free_step > 0.0) step = smaller(step, 1.1 * g->free_step);
+        double step = smaller(g->next_step, 1.1 * g->free_step), left = g->stop - g->time;
         g->free_step = step;
         if (step >= left) step = left; else if (2.0 * step > left) step = 0.5 * left;
         double kick = 0.5 * (g->last_step + step), last_step = g->last_step;
