@@ -32,6 +32,11 @@ class Openings(NamedTuple):
     stretched: int
     widest: float
 
+    @property
+    def outcome(self) -> str:
+        """What became of them, in words."""
+        return "all closed again at the end" if self.still == 0 else f"{self.still} still open at the end"
+
 
 def find_openings(run: Run, deck: Deck | None = None) -> Openings | None:
     """Zones at zero stress after they were loaded, opened by a strain of LEAST at least; None if there are none.

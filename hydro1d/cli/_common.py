@@ -40,13 +40,13 @@ def refuse_result(target: Path) -> Path:
     Raises FileProblem.
     """
     from hydro1d.errors import FileProblem
+    from hydro1d.store.files import begins_as_hdf5
 
     try:
-        with open(target, "rb") as file:
-            start = file.read(8)
+        lost = begins_as_hdf5(target)
     except OSError:
         return target  # nothing there, or nothing that could be lost
-    if start == b"\x89HDF\r\n\x1a\n":
+    if lost:
         raise FileProblem(f"cannot write {target}: a result (HDF5) is there and would be lost; choose another name")
     return target
 

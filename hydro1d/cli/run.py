@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from hydro1d.cli import _common
+from hydro1d.variables import HERALD
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -111,8 +112,7 @@ def _openings(opened: Openings) -> str:
         _common.figure(opened.high, "m"),
         _common.figure(opened.first, "s"),
     )
-    closed = "all closed again" if opened.still == 0 else f"{opened.still} still open"
-    text = f"opened: {opened.zones} of {opened.total} zones, first seen at {first}, X from {low} to {high}; {closed} at the end"
+    text = f"opened: {opened.zones} of {opened.total} zones, first seen at {first}, X from {low} to {high}; {opened.outcome}"
     if opened.stretched:
         text += f"; {opened.stretched} stretched beyond the initial length, to {opened.widest:.3g} times it at most"
     return text
@@ -125,7 +125,7 @@ def _loads(deck: Deck, left: float, right: float) -> str:
     if len(loaded) != 1:
         return f"peak stress on the ends: left {_common.figure(left, 'Pa')}, right {_common.figure(right, 'Pa')}"
     support, peak = (right, applied["left"]) if loaded == ["left"] else (left, applied["right"])
-    support = support if support > 1e-9 * peak else 0.0  # the numerical herald of a wave that has not arrived
+    support = support if support > HERALD * peak else 0.0
     ratio = support / peak
     outcome = "enhanced" if ratio > 1.0 else "attenuated"
     return (

@@ -111,7 +111,6 @@ def checked(strain: np.ndarray, stress: np.ndarray, largest_strain: float = 1.0)
     if strain[0] < 0.0 or strain[-1] >= 1.0:
         raise DeckError(
             f"strains run from {strain[0]:g} to {strain[-1]:g}; they must lie between 0 and 1, compression positive "
-            ""
             "(percent needs the unit %, in the header or with --strain-unit %)"
         )
     if not stress.max() > 0.0:

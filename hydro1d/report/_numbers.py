@@ -10,13 +10,11 @@ from hydro1d.errors import FileProblem
 from hydro1d.openings import find_openings
 from hydro1d.plot._base import name_of
 from hydro1d.plot._units import scale_for
+from hydro1d.variables import HERALD
 
 if TYPE_CHECKING:
     from hydro1d.deck import Deck
     from hydro1d.store import Run
-
-
-HERALD = 1e-9  # of the largest stress: less is the numerical herald of a wave that has not arrived
 
 
 class Number(NamedTuple):
@@ -130,8 +128,9 @@ def _opened(run: Run, deck: Deck | None) -> list[Number]:
         return []
     length = scale_for("m", run["node_coordinate"])
     first = scale_for("s", found.first).show(found.first, 3)
-    closed = "all closed again" if found.still == 0 else f"{found.still} still open"
-    where = f"first seen at {first}, X from {length.show(found.low, 3)} to {length.show(found.high, 3)}; {closed} at the end"
+    where = (
+        f"first seen at {first}, X from {length.show(found.low, 3)} to {length.show(found.high, 3)}; {found.outcome}"
+    )
     rows = [Number("zones that opened", f"{found.zones} of {found.total}", where)]
     if found.stretched:
         most = f"{found.widest:.3g} times as long at most: the foam has parted there, its strain means little"

@@ -55,11 +55,9 @@ def _reason(error: BaseException, action: str, path: Path) -> str:
 
 def not_hdf5(path: Path, error: BaseException) -> str:
     """Why the HDF5 library could not read a file, in words that need no knowledge of the library."""
-    with open(path, "rb") as stream:
-        start = stream.read(len(_SIGNATURE))
-    if not start:
+    if path.stat().st_size == 0:
         return "it is empty"
-    if start != _SIGNATURE:
+    if not begins_as_hdf5(path):
         return "it is not an HDF5 file"
     if "truncated" in str(error):
         return "it is truncated: its end is missing, or not all of it is written yet"
@@ -156,13 +154,18 @@ def sync_folder(folder: Path) -> None:
             os.close(fd)
 
 
+def begins_as_hdf5(path: Path) -> bool:
+    """Whether a file begins as HDF5 does. Raises OSError."""
+    with open(path, "rb") as stream:
+        return stream.read(len(_SIGNATURE)) == _SIGNATURE
+
+
 def is_ours(path: Path) -> bool:
     """Whether an existing file was written by hydro1d, be it damaged."""
     if has_seal(path):
         return True
-    with open(path, "rb") as stream:
-        if stream.read(len(_SIGNATURE)) != _SIGNATURE:
-            return False
+    if not begins_as_hdf5(path):
+        return False
     import h5py
 
     try:
