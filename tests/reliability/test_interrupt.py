@@ -15,33 +15,22 @@ import time
 from pathlib import Path
 
 import pytest
+from decks import RINGING_BAR
 
 import hydro1d
 from hydro1d.api import Share
 from hydro1d.interrupt import interruptible
 
-DECK = """
-title = "A bar that rings"
-[material.bar]
-law = "elastic"
-density = 1000.0
-modulus = 1e9
-[[layer]]
-material = "bar"
-thickness = 1
-zones = 50
-[left]
-type = "pressure"
-pulse = "rectangular"
-peak = 1e6
-duration = 2e-4
-[right]
-type = "free"
+DECK = (
+    'title = "A bar that rings"'
+    + RINGING_BAR
+    + """
 [time]
 end = 1.0
 [output]
 history = 1000
 """
+)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -17,29 +17,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from decks import FOAM, PULSE
 
 import hydro1d
 from hydro1d import cli
 from hydro1d.store import Hdf5Sink, open_run, read_checkpoint
 
-FOAM = """
-[material.foam]
-law = "epph"
-density = 51.6
-modulus = 22e6
-plateau_stress = 0.8e6
-densification_strain = 0.689
-shock_slope = 0.00105
-"""
-PULSE = """
-[left]
-type = "pressure"
-pulse = "rectangular"
-peak = 3.6e6
-duration = 1.53e-3
-[right]
-type = "wall"
-"""
 ONE_LAYER = (
     FOAM
     + """

@@ -16,6 +16,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from decks import FOAM, PULSE, RINGING_BAR
 
 import hydro1d
 from hydro1d.boundaries.free import Free
@@ -27,26 +28,17 @@ from hydro1d.solver import solve
 from hydro1d.variables import HISTORY
 from hydro1d.viscosity import Viscosity
 
-DECK = """
-title = "short"
-[material.foam]
-law = "epph"
-density = 51.6
-modulus = 22e6
-plateau_stress = 0.8e6
-densification_strain = 0.689
-shock_slope = 0.00105
+DECK = (
+    'title = "short"'
+    + FOAM
+    + """
 [[layer]]
 material = "foam"
 thickness = 1
 zones = {zones}
-[left]
-type = "pressure"
-pulse = "rectangular"
-peak = 3.6e6
-duration = 1.53e-3
-[right]
-type = "wall"
+"""
+    + PULSE
+    + """
 [time]
 end = {end}
 [output]
@@ -54,6 +46,7 @@ profiles = 20
 history = {history}
 {more}
 """
+)
 
 
 def write_deck(folder: Path, zones=40, end=4e-3, history=5, more="") -> Path:
@@ -227,22 +220,9 @@ def test_memory_stays_flat_over_a_million_steps(tmp_path, history, cycles):
     assert max(handles) - min(handles) <= 2  # the working file, and the partial file that is being written
 
 
-RING = """
-[material.bar]
-law = "elastic"
-density = 1000
-modulus = 1e9
-[[layer]]
-material = "bar"
-thickness = 1
-zones = 50
-[left]
-type = "pressure"
-pulse = "rectangular"
-peak = 1e6
-duration = 2e-4
-[right]
-type = "free"
+RING = (
+    RINGING_BAR
+    + """
 [time]
 end = {end}
 [output]
@@ -251,6 +231,7 @@ history = {history}
 [checkpoint]
 cycles = 200000
 """
+)
 
 
 def test_memory_and_files_stay_flat(tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from columns import FOAM, PULSE, ROHACELL, layer, run, step
+from scipy.integrate import quad
 
 from hydro1d import analytic
 from hydro1d.boundaries.free import Free
@@ -162,14 +163,22 @@ def test_what_has_not_yielded_is_not_crushed():
         assert kept.column("uncrushed_fraction")[-1] == uncrushed
 
 
-@pytest.mark.parametrize("zones", [100, 200])
-def test_the_work_of_the_viscosity_is_the_dissipation_of_the_front(zones):
-    # Ideal gas, piston into it: what the front adds to the energy beyond the isentrope. Compare energies, not stresses:
-    # all that q does is heat, so e behind is what an isentropic compression to the same strain gives, and q's work.
-    gas = IdealGas(density=1.2, gamma=1.4, pressure=1e5)
-    _, kept = run([layer(gas, 1.0, zones)], Piston(velocity=300.0), Transmitting(), end=1.5e-3, profile_times=[1.5e-3])
-    fields, mass = kept.frames[-1].fields, 1.2 / zones
-    isentropic = gas.initial_energy * (1.0 - fields["strain"]) ** -0.4
-    # heat early in the front is compressed further by the rest of it: the surplus exceeds the work, by some tenths
-    surplus = float(((fields["internal_energy"] - isentropic) * mass).sum())
-    assert 1.0 < surplus / kept.column("viscous_work")[-1] < 1.35
+@pytest.mark.parametrize("velocity", [60.0, 200.0])
+def test_the_work_of_the_viscosity_is_what_the_curve_does_not_explain(velocity):
+    # A reversible foam's stress is a function of strain: all energy beyond the area under its curve is heat, and only q
+    # makes heat. The scheme takes the area by the trapezoidal rule over a zone's steps, some dozens a front.
+    foam = EPPHTangent(**ROHACELL, beta=1.22, gamma=0.603, unloading="reversible")
+    errors = []
+    for zones in (100, 400):
+        _, kept = run(
+            [layer(foam, 1.0, zones)], Piston(velocity=velocity), Transmitting(), end=2e-3, profile_times=[2e-3]
+        )
+        fields = kept.frames[-1].fields
+        area = [quad(lambda e: foam.loading(e)[0], 0.0, s, points=_corners(foam, s))[0] for s in fields["strain"]]
+        heat = np.sum(fields["internal_energy"] * foam.density - area) / zones
+        errors.append(abs(heat / kept.column("viscous_work")[-1] - 1.0))
+    assert errors[0] < 1e-3 and errors[1] < 0.5 * errors[0]
+
+
+def _corners(foam, strain):
+    return [corner for corner in (foam.yield_strain, foam.densification_strain) if corner < strain] or None
