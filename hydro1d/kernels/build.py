@@ -44,7 +44,7 @@ def address(name: str, signature: str, content: str, make: Callable[[], Callable
     """Address of the compiled kernel.
 
     ``make`` returns the Python kernel and is called only if the kernel is not in the cache; ``content`` tells everything
-    that the machine code depends on besides this package's own kernels (the source of a law, say).
+    that the machine code depends on besides this package's own kernels (the source of a law, say). Raises NotCompilable.
     """
     key = hashlib.sha256("\n".join([name, signature, content, _environment()]).encode()).hexdigest()
     with _lock:
@@ -138,11 +138,12 @@ def _compile(kernel: Callable, signature: str) -> bytes:
     from numba import cfunc, types
 
     from hydro1d.kernels.lowering import POINTER, make_compilable, only_lowered
+    from hydro1d.kernels.refusals import noticed
 
     letters = {"p": POINTER, "q": types.CPointer(types.int64), "i": types.int64}
     make_compilable(kernel)
     kinds = types.void(*(letters[letter] for letter in signature))
-    with only_lowered():
+    with noticed(), only_lowered():
         compiled = cfunc(kinds, error_model="numpy", fastmath={"contract", "arcp"}, _nrt=False)(kernel)
     native = compiled.native_name.removeprefix("cfunc.")
     module = llvm.parse_assembly(_with_entry(compiled.inspect_llvm(), native, signature))

@@ -199,7 +199,7 @@ def methods(component: type[Component]) -> dict[str, FunctionType]:
     for base in reversed(component.__mro__):
         if issubclass(base, Component) and base is not Component:
             for key, item in vars(base).items():
-                if isinstance(item, FunctionType) and not key.startswith("_"):
+                if isinstance(item, FunctionType) and not key.startswith("__"):
                     found[key] = item
                 elif isinstance(item, derived):
                     found.pop(key, None)

@@ -13,6 +13,7 @@ from hydro1d.kernels import build, layout, march, records
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.memory import placed
+from hydro1d.kernels.refusals import NotCompilable, explanation
 from hydro1d.laws.base import Foam, Law
 from hydro1d.parameters import Component
 from hydro1d.state import State
@@ -172,7 +173,10 @@ def _component_kernel(
         return factory(lowering.unpacker(record, members), count)
 
     name = f"{kind} {type(component).__module__}.{type(component).__qualname__}"
-    return march.march, build.address(name, signature, content, make)
+    try:
+        return march.march, build.address(name, signature, content, make)
+    except NotCompilable as refused:
+        raise explanation(type(component), refused.failures) or refused from refused.__cause__
 
 
 def _shape(component: Component, members: dict[str, Any]) -> str:

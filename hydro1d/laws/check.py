@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 
 from hydro1d.errors import DeckError
-from hydro1d.laws.base import Law
+from hydro1d.laws.base import Foam, Law
+from hydro1d.parameters import derived
 
 _STRAINS = (0.0, 1e-6, 1e-4, 1e-3, *(0.005 * k for k in range(1, 181)))
+_START = 1e-6  # a strain at which no foam has yielded
 
 
 def check_law(law: Law) -> None:
     """Load and unload a material point. Raises DeckError, in one sentence, for a law that cannot be run.
 
     Stress and moduli must be finite, moduli not negative, the stiffness positive where it starts, the answer the same when
-    asked twice, and the history a tuple of as many floats as the law declares.
+    asked twice, the history a tuple of as many floats as the law declares; a foam's curve begins along its elastic line, and
+    its derived constants can be computed.
     """
     try:
         history = tuple(float(value) for value in type(law).history.values())
@@ -26,10 +29,33 @@ def check_law(law: Law) -> None:
             if law.point(strain, largest, 0.0, energy, answer[4]) != answer and not history:
                 raise ValueError(f"answers differently when asked twice at strain {strain:g}")
             history = answer[4]
+        if isinstance(law, Foam):
+            _check_start(law)
+        _check_derived(law)
     except DeckError:
         raise
     except Exception as error:
         raise DeckError(f"law {type(law).__name__}: {_reason(error)}") from error
+
+
+def _check_start(law: Foam) -> None:
+    """Yield is where the curve leaves the elastic line; viscosity and crushing are measured by the stress there."""
+    if law.yield_strain > 0.0 and law.loading(law.yield_strain)[0] > 0.0:
+        return
+    stress = law.loading(_START)[0]
+    raise ValueError(
+        f"loading must begin along the elastic line, stress = modulus × strain up to yield: at strain {_START:g} its stress "
+        f"is {stress:.6g} Pa, a slope of {stress / _START:.6g} Pa, where the modulus is {law.modulus:.6g} Pa"
+    )
+
+
+def _check_derived(law: Law) -> None:
+    names = {name for base in type(law).__mro__ for name, item in vars(base).items() if isinstance(item, derived)}
+    for name in sorted(names):
+        try:
+            getattr(law, name)
+        except Exception as error:
+            raise ValueError(f"its constant {name} cannot be computed: {_reason(error)}") from error
 
 
 def _reason(error: Exception) -> str:

@@ -146,3 +146,97 @@ def test_a_file_that_cannot_be_used_says_why(tmp_path, content, law, says):
     (tmp_path / "bad.py").write_text(content)
     with pytest.raises(hydro1d.DeckError, match=says):
         hydro1d.load_deck(deck(tmp_path, law))
+
+
+FOAM_OF_ONES_OWN = """
+import math
+import numpy as np
+from hydro1d import Foam, positive
+
+FACTORS = {{"soft": 1.0}}
+
+class Mine(Foam):
+    modulus: float = positive("Pa")
+    kind: str = "soft"
+
+    def _curve(self, strain):
+        return strain * (1.0 + strain**3)
+
+    def loading(self, strain):
+        {body}
+"""
+SMALL = "[material.foam]\nlaw = 'mine.py:Mine'\ndensity = 50\nmodulus = 2e7\n" + DECK[DECK.index("[[layer]]") :]
+
+
+def own_foam(tmp_path, body):
+    (tmp_path / "mine.py").write_text(FOAM_OF_ONES_OWN.format(body=body))
+    path = tmp_path / "deck.toml"
+    path.write_text(SMALL)
+    return path
+
+
+@pytest.mark.parametrize("body, says", [
+    ("return np.interp(strain, [0.0, 1.0], [0.0, self.modulus]), self.modulus", "numba has no interp(float64, list"),
+    ("return (far(strain), 0.0) if strain > 2.0 else (self.modulus * strain, self.modulus)", "'far' is not defined"),
+    ("return self.modulus * strain * FACTORS['soft'], self.modulus", "'FACTORS'"),
+    ("return self.modulus * strain, self.modulus if self.kind == 'soft' else 0.0", "Unknown attribute 'kind' of type Mine"),
+    ("return self.modulus * strain, sum(x for x in (self.modulus, 0.0))", "yield in a closure is unsupported"),
+    ("import math; return self.modulus * strain, self.modulus", "IMPORT_NAME"),
+    ("return self.modulus * strain, float(f'{self.modulus:.9g}')", "f-strings"),
+])  # fmt: skip
+def test_what_numba_cannot_compile_is_said_with_its_line(tmp_path, body, says):
+    path = own_foam(tmp_path, body)
+    with pytest.raises(hydro1d.DeckError) as caught:
+        hydro1d.run(path)
+    first, line, allowed = str(caught.value).splitlines()
+    where = FOAM_OF_ONES_OWN.splitlines().index("        {body}") + 1
+    assert (
+        first.startswith(f"{tmp_path / 'mine.py'}, line {where}: Mine.loading cannot be compiled: ") and says in first
+    )
+    assert line.strip() == body
+    assert "floats" in allowed
+    assert len(first) < 400
+
+
+def test_a_refusal_without_a_line_still_names_the_function(tmp_path):
+    path = own_foam(tmp_path, "return [self.modulus * strain, self.modulus]")
+    with pytest.raises(hydro1d.DeckError, match=r"mine\.py: Mine\.loading cannot be compiled: it makes an object"):
+        hydro1d.run(path)
+
+
+def test_hydro1ds_own_kernels_are_not_blamed_on_anybody(monkeypatch):
+    from hydro1d.kernels import refusals
+
+    failure = refusals.Failure(test_hydro1ds_own_kernels_are_not_blamed_on_anybody, ValueError("x"))
+    assert refusals.explanation(EPPH, [failure]) is None
+
+
+def test_a_method_may_begin_with_an_underscore(tmp_path):
+    run = hydro1d.run(own_foam(tmp_path, "return self.modulus * self._curve(strain), self.modulus"))
+    assert run.attributes["status"] == "complete"
+
+
+@pytest.mark.parametrize("body, says", [
+    ("return 0.5 * self.modulus * strain, 0.5 * self.modulus", "loading must begin along the elastic line"),
+    ("return 1e5 * math.tanh(3.0 * strain * self.modulus / 1e5), self.modulus", "a slope of .* where the modulus is 2e+"),
+    ("return 1e5 * strain**0.5, self.modulus", "loading must begin along the elastic line"),
+])  # fmt: skip
+def test_a_curve_that_does_not_begin_with_its_modulus_is_refused(tmp_path, body, says):
+    with pytest.raises(hydro1d.DeckError, match=says.replace("+", r"\+")):
+        hydro1d.load_deck(own_foam(tmp_path, body))
+
+
+def test_a_rounded_knee_of_the_right_slope_runs(tmp_path):
+    body = (
+        "e = strain * self.modulus / 1e5; "
+        "return 1e5 * math.tanh(e) + 1e8 * strain**6, self.modulus / math.cosh(e) ** 2 + 6e8 * strain**5"
+    )
+    assert hydro1d.run(own_foam(tmp_path, body)).attributes["status"] == "complete"
+
+
+def test_a_constant_that_cannot_be_computed_is_named(tmp_path):
+    path = own_foam(tmp_path, "return self.modulus * strain, self.modulus")
+    source = (tmp_path / "mine.py").read_text().replace("import Foam,", "import Foam, derived,")
+    (tmp_path / "mine.py").write_text(source + "\n    @derived\n    def speed(self):\n        return 1.0 / 0.0\n")
+    with pytest.raises(hydro1d.DeckError, match="its constant speed cannot be computed: ZeroDivisionError"):
+        hydro1d.load_deck(path)

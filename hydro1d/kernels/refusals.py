@@ -1,0 +1,115 @@
+"""What numba cannot compile, told to its author: which file, which function, which line, and why in a sentence.
+
+numba wraps the reason in one message for every function on the way to it. Its events tell of each function as it fails, the
+innermost first; the first that is neither numba's nor hydro1d's is the author's.
+"""
+
+from __future__ import annotations
+
+import linecache
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FunctionType
+from typing import Any, NamedTuple
+
+from hydro1d.errors import DeckError
+from hydro1d.parameters import Component
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+_MAY_USE = (
+    "compiled functions may use floats, if, loops, min, max, abs, functions of math, self.parameter and their own methods; "
+    "no arrays, lists, text, exceptions"
+)
+_SIGNATURE = re.compile(r"^\s*>>> (.+)$", re.MULTILINE)
+_RAISED_FROM = re.compile(r"\s*Raised from .* \((\d+)\)$")
+_LONGEST = 200  # characters of what numba said
+
+
+class Failure(NamedTuple):
+    """A function that numba gave up, and why."""
+
+    function: FunctionType
+    error: BaseException
+
+
+class NotCompilable(Exception):
+    """A kernel that numba cannot compile; `failures` are the functions that failed on the way, innermost first."""
+
+    def __init__(self, failures: list[Failure], error: BaseException) -> None:
+        self.failures = failures
+        super().__init__(f"numba cannot compile a kernel: {error}")
+
+
+@contextmanager
+def noticed() -> Iterator[None]:
+    """Raise NotCompilable, from numba's own error, where compiling fails."""
+    from numba.core import event
+
+    failures: list[Failure] = []
+
+    class Listener(event.Listener):
+        def on_start(self, event: Any) -> None:
+            pass
+
+        def on_end(self, event: Any) -> None:
+            error = sys.exception()
+            if error is not None:
+                failures.append(Failure(event.data["dispatcher"].py_func, error))
+
+    try:
+        with event.install_listener("numba:compile", Listener()):
+            yield
+    except Exception as error:
+        raise NotCompilable(failures, error) from error
+
+
+def explanation(component: type[Component], failures: list[Failure]) -> DeckError | None:
+    """The error for the author of a component; None where the component is hydro1d's own, whose fault it is not."""
+    home = getattr(sys.modules.get(component.__module__), "__file__", None) or "<unknown>"
+    if _is_ours(home):
+        return None
+    own = next((failure for failure in failures if not _is_ours(failure.function.__code__.co_filename)), None)
+    if own is None:  # its functions compile, but what they return does not fit
+        reason = _reason(failures[0].error, component) if failures else "numba fails on it and gives no reason"
+        return DeckError(f"{home}: {component.__name__} cannot be compiled: {reason}\n  {_MAY_USE}")
+    file, line = own.function.__code__.co_filename, _line(own)
+    source = linecache.getline(file, line).strip() if line else ""
+    place = f"{file}, line {line}" if line else file
+    text = f"{place}: {own.function.__qualname__} cannot be compiled: {_reason(own.error, component)}"
+    return DeckError("\n  ".join(filter(None, [text, source, _MAY_USE])))
+
+
+def _is_ours(file: str) -> bool:
+    """Whether a source file is hydro1d's or numba's."""
+    import numba
+
+    return any(Path(file).is_relative_to(package) for package in (_PACKAGE, Path(numba.__file__).parent))
+
+
+def _line(failure: Failure) -> int:
+    """The line that numba complains of, 0 where it names none."""
+    place = getattr(failure.error, "loc", None)
+    if place is not None and place.filename == failure.function.__code__.co_filename:
+        return int(place.line)
+    named = _RAISED_FROM.search(str(failure.error))
+    return int(named[1]) if named else 0
+
+
+def _reason(error: BaseException, component: type[Component]) -> str:
+    """The first sentence of what numba says that is about the code."""
+    text = str(error)
+    rows = [row.strip() for row in text.splitlines() if row.strip() and not row.startswith("Failed in nopython mode")]
+    if not rows:
+        return "numba fails on it and gives no reason"
+    reason = _RAISED_FROM.sub("", rows[0])
+    called = _SIGNATURE.search(text)
+    if reason.startswith("No implementation of function") and called:
+        reason = f"numba has no {called[1]}"
+    if reason.startswith("NRT required"):  # numba's memory for objects, which kernels do without
+        reason = "it makes an object (a list, an array, a text)"
+    reason = re.sub(r"Literal\[\w+\]\(([^()]*)\)", r"\1", re.sub(r"<iv=[^>]*>", "", reason))
+    reason = reason.replace(f"{component.__module__}.{component.__qualname__}", component.__name__)
+    return reason if len(reason) <= _LONGEST else reason[:_LONGEST] + "…"
