@@ -30,6 +30,7 @@ class UnitError(ValueError):
 
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _NUMERAL = re.compile(r"([+-]?)(\d[\d_]*)?(?:\.([\d_]*))?(?:[eE]([+-]?\d+))?", re.ASCII)
+_COMMA = re.compile(r"[+-]?[\d.]*,\d[\d.,]*(?=\D|$)", re.ASCII)
 _FACTOR = re.compile(r"([*/ ]?)(1(?!\d)|[^\W\d]+|%|°)(?:\^?([+-]?\d{1,2}))?(?=[*/ ]|$)")
 
 
@@ -110,6 +111,8 @@ def _convert_text(text: str, unit: str) -> float:
     if len(text) > LONGEST_TEXT:
         raise UnitError(f"{quoted} is too long for a number with a unit")
     body = text.strip().replace("−", "-")
+    if comma := _COMMA.match(body):
+        raise UnitError(f"{quoted} has a comma; {_without_comma(comma[0], body)}")
     match = _NUMERAL.match(body)
     if match is None or not ((match[2] or "") + (match[3] or "")).strip("_"):
         raise UnitError(f"{quoted} is not a number with a unit")
@@ -124,6 +127,13 @@ def _convert_text(text: str, unit: str) -> float:
     if given.dimension != wanted.dimension:
         raise UnitError(f"{quoted} is {_kind(given.dimension)}, not {_kind(wanted.dimension)}")
     return _scaled(match, given.numerator * wanted.denominator, given.denominator * wanted.numerator, quoted)
+
+
+def _without_comma(number: str, body: str) -> str:
+    """How to write a number with a comma, which may be decimal or stand between thousands."""
+    if number.count(",") == 1 and "." not in number:
+        return f"a number has a decimal point: {shorten(body.replace(',', '.', 1))}"
+    return "a number has a decimal point and nothing between thousands"
 
 
 def _scaled(number: re.Match[str], numerator: int, denominator: int, quoted: str) -> float:

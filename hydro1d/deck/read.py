@@ -12,6 +12,8 @@ from hydro1d.errors import DeckError, FileProblem, Problem
 LARGEST_DECK = 512 * 1024  # bytes; measured tables belong into CSV files
 DEEPEST_KEY = 50  # dots in one key
 
+_COMMA = re.compile(r"^[^=#\"]*=\s*([+-]?\d+),(\d+)")
+_BARE_UNIT = re.compile(r"^[^=#\"]*=\s*([+-]?[\d._]+(?:[eE][+-]?\d+)?)\s*([^\W\d][\w*/^.-]{0,19})")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 _LONG_INTEGER = re.compile(r"[0-9_]{4000}")
 
@@ -70,7 +72,16 @@ def _syntax_problem(message: str, text: str) -> Problem:
         return Problem("TOML", message[:300])
     line = int(match[1]) if match[1] else text.count("\n") + 1
     column = int(match[2]) if match[2] else len(text) - (text.rfind("\n") + 1) + 1
-    return Problem("TOML", message[: match.start()][:300], None, "", line, column)
+    return Problem("TOML", message[: match.start()][:300] + _slip(text.split("\n")[line - 1]), None, "", line, column)
+
+
+def _slip(row: str) -> str:
+    """A guess at what was meant by a row that is no TOML, or nothing."""
+    if match := _COMMA.match(row):
+        return f"; a number has a decimal point, {match[1]}.{match[2]}, and with a unit stands in quotes"
+    if match := _BARE_UNIT.match(row):
+        return f'; a number with a unit stands in quotes, "{match[1]} {match[2]}"'
+    return ""
 
 
 def _has_deep_key(text: str) -> bool:

@@ -431,3 +431,21 @@ def test_units_at_the_edge(text, words):
 def test_a_component_that_is_given_no_table():
     with pytest.raises(ValidationError):
         Layer.model_validate(3)
+
+
+@pytest.mark.parametrize("row, says", [
+    ("peak = 0,8", "a number has a decimal point, 0.8"),
+    ("peak = -12,75 MPa", "a number has a decimal point, -12.75"),
+    ("peak = 0.8 MPa", 'a number with a unit stands in quotes, "0.8 MPa"'),
+    ("peak = 5kg/m^3", 'a number with a unit stands in quotes, "5 kg/m^3"'),
+])  # fmt: skip
+def test_a_slip_of_notation_is_guessed(row, says):
+    with pytest.raises(DeckError, match="not valid TOML") as caught:
+        load_deck(f'title = "x"\n[left]\n{row}\n')
+    assert says in str(caught.value) and "line 3" in str(caught.value)
+
+
+def test_a_row_that_is_simply_wrong_is_not_guessed_at():
+    with pytest.raises(DeckError) as caught:
+        load_deck('title = "x"\npeak = [1 2]\n')
+    assert "quotes" not in str(caught.value) and "decimal" not in str(caught.value)
