@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--values", metavar="LIST", help='its values: "2 MPa, 3 MPa" or FIRST:LAST:COUNT')
     add("--threads", metavar="N", type=int, help="points at a time; default: the processors there are")
     add("-o", "--output", metavar="FILE.csv", type=Path, help="write every evaluation; with --along the boundary too")
-    add("--quiet", action="store_true", help="no progress")
+    add("-q", "--quiet", action="store_true", help="no progress")
 
 
 def run(args: argparse.Namespace) -> None:

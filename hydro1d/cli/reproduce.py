@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--only", metavar="FIGURE", action="append", default=[], help="one figure, for example 6; can be repeated"
     )
     parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
-    parser.add_argument("--quiet", action="store_true", help="do not say what is being made")
+    parser.add_argument("-q", "--quiet", action="store_true", help="do not say what is being made")
 
 
 def run(args: argparse.Namespace) -> None:

@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="run the cases of this name (* stands for anything); can be repeated",
     )  # fmt: skip
     parser.add_argument("--list", action="store_true", help="name the cases and leave")
-    parser.add_argument("--quiet", action="store_true", help="print failures and the last line only")
+    parser.add_argument("-q", "--quiet", action="store_true", help="print failures and the last line only")
     parser.add_argument("--workers", metavar="N", type=int, help="threads; default: one a core")
 
 

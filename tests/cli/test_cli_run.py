@@ -24,6 +24,7 @@ def test_run_for_real(deck, capsys, tmp_path):
     assert "result: short.h5" in out
     assert "attenuated" in out
     assert main(["run", deck, "-o", "other.h5", "--quiet"]) == 0
+    assert main(["run", deck, "-o", "other.h5", "-q"]) == 0
     assert capsys.readouterr() == ("", "")
     assert (tmp_path / "other.h5").is_file()
 

@@ -155,12 +155,24 @@ def test_completion_knows_commands_and_options(shell, capsys):
         assert word in script
 
 
-def test_bash_completion_works(capsys, here):
+@pytest.mark.parametrize(
+    ("typed", "offered"),
+    [
+        ("plot hug", ["hugoniot"]),
+        ("laws pl", ["plot"]),
+        ("laws epph-", ["epph-tangent"]),
+        ("laws plot --mat", ["--material"]),
+        ("laws plot --fra", []),
+        ("laws fit --str", ["--strain-unit", "--stress-unit"]),
+    ],
+)
+def test_bash_completion_works(capsys, here, typed, offered):
     main(["completion", "bash"])
     (here / "c.sh").write_text(capsys.readouterr().out)
-    lines = "source c.sh; COMP_WORDS=(hydro1d plot hug); COMP_CWORD=2; _hydro1d; echo ${COMPREPLY[@]}"
+    words = typed.split()
+    lines = f"source c.sh; COMP_WORDS=(hydro1d {typed}); COMP_CWORD={len(words)}; _hydro1d; echo ${{COMPREPLY[@]}}"
     done = subprocess.run(["bash", "-c", lines], capture_output=True, text=True)
-    assert done.stdout.split() == ["hugoniot"]
+    assert done.stdout.split() == offered
 
 
 ZSH = """
@@ -170,6 +182,8 @@ words=(hydro1d plot hug) CURRENT=3
 fpath=(. $fpath); autoload -Uz _hydro1d; _hydro1d
 print -- ---
 words=(hydro1d p) CURRENT=2; _hydro1d
+print -- ---
+words=(hydro1d laws fit --) CURRENT=4; _hydro1d
 print -- ---
 unfunction _hydro1d; source ./_hydro1d; print $_comps[hydro1d]
 """
@@ -181,9 +195,10 @@ def test_zsh_completion_works(capsys, here):
     (here / "_hydro1d").write_text(capsys.readouterr().out)
     done = subprocess.run(["zsh", "-f", "-c", ZSH], capture_output=True, text=True, timeout=60)
     assert done.stderr == ""
-    options, commands, registered = (part.split("\n") for part in done.stdout.split("---\n"))
+    options, commands, fit, registered = (part.split("\n") for part in done.stdout.split("---\n"))
     assert {"hugoniot", "animate", "--frame", "--quantity"} <= {*options}
     assert any(line.startswith("plot:draw figures of a run") for line in commands)
+    assert "--stress-unit" in fit and "--frame" not in fit
     assert registered[0] == "_hydro1d"
 
 
@@ -196,6 +211,9 @@ def test_zsh_completion_works(capsys, here):
         ("hydro1d plot --frame lab", "laboratory"),
         ("hydro1d new bl", "blast"),
         ("hydro1d run --qui", "--quiet\tno progress"),
+        ("hydro1d laws fit --stress", "--stress-unit\t"),
+        ("hydro1d laws plot --mat", "--material\t"),
+        ("hydro1d laws epph-t", "epph-tangent"),
     ],
 )
 def test_fish_completion_works(capsys, here, typed, offered):
@@ -205,6 +223,15 @@ def test_fish_completion_works(capsys, here, typed, offered):
     done = subprocess.run(["fish", "--no-config", "-c", command], capture_output=True, text=True, timeout=60)
     assert done.stderr == ""
     assert any(line.startswith(offered) for line in done.stdout.splitlines()), done.stdout
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="needs fish")
+def test_fish_does_not_take_laws_plot_for_plot(capsys, here):
+    main(["completion", "fish"])
+    (here / "hydro1d.fish").write_text(capsys.readouterr().out)
+    command = "source hydro1d.fish; complete -C 'hydro1d laws plot --'"
+    done = subprocess.run(["fish", "--no-config", "-c", command], capture_output=True, text=True, timeout=60)
+    assert "--material" in done.stdout and "--frame" not in done.stdout
 
 
 def test_log_json(here, capsys):
