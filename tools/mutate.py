@@ -2,8 +2,9 @@
 
     NUMBA_DISABLE_JIT=1 python tools/mutate.py hydro1d/laws tests/laws/test_laws.py tests/laws/test_laws_details.py
 
-Each mutant lives in a forked process that has the libraries loaded already. A module's tests are the files that name it. Texts
-of messages, docstrings and annotations are left alone. Exit code 1 if fewer than `--least` percent of the mutants are noticed.
+Each mutant lives in a forked process that has the libraries loaded already. It meets first the test files that name its
+module or something public of it, then the others, until a test fails. Texts of messages, docstrings and annotations are left
+alone. Exit code 1 if fewer than `--least` percent of the mutants are noticed.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import importlib
 import math
 import os
 import random
+import re
 import resource
 import sys
 from collections.abc import Iterator
@@ -103,10 +105,17 @@ def bring_in(path: Path, tree: ast.Module) -> None:
     SourceFileLoader.get_code = get_code  # type: ignore[method-assign]
 
 
-def tests_of(path: Path, tests: list[Path]) -> list[str]:
-    """The test files that name a module, or all of them."""
-    files = sorted(file for path in tests for file in (path.rglob("test_*.py") if path.is_dir() else [path]))
-    return [str(file) for file in files if path.stem.strip("_") in file.read_text()] or [str(file) for file in files]
+def test_files(tests: list[Path]) -> list[Path]:
+    """The files of some files and folders."""
+    return sorted(file for path in tests for file in (path.rglob("test_*.py") if path.is_dir() else [path]))
+
+
+def nearest_first(path: Path, files: list[Path]) -> list[str]:
+    """All test files, those first that name a module or something public that it defines."""
+    tops = [node for node in ast.parse(path.read_text()).body if isinstance(node, ast.ClassDef | ast.FunctionDef)]
+    names = [path.stem.strip("_"), *(top.name for top in tops if not top.name.startswith("_"))]
+    word = re.compile(rf"\b({'|'.join(map(re.escape, names))})\b")
+    return [str(file) for file in sorted(files, key=lambda file: not word.search(file.read_text()))]
 
 
 def fails(path: Path, number: int, tests: list[str], seconds: float) -> tuple[bool, float]:
@@ -136,17 +145,17 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--least", type=float, default=90.0, help="percent that must be noticed")
     args = parser.parse_args()
-    files = sorted(args.source.rglob("*.py")) if args.source.is_dir() else [args.source]
-    every = [mutant for file in files for mutant in mutants(file)]
+    sources = sorted(args.source.rglob("*.py")) if args.source.is_dir() else [args.source]
+    every = [mutant for file in sources for mutant in mutants(file)]
     chosen = random.Random(args.seed).sample(every, min(args.sample or len(every), len(every)))
-    survivors, tests, limits = [], {file: tests_of(file, args.tests) for file, *_ in chosen}, {}
-    for file, wanted in tests.items():
-        failed, seconds = fails(file, -1, wanted, 3600.0)
-        if failed:
-            sys.exit(f"{file}: its tests fail without a mutant")
-        limits[file] = 3.0 * seconds + 5.0  # an endless loop is noticed
+    survivors, files = [], test_files(args.tests)
+    failed, seconds = fails(args.source, -1, [str(file) for file in files], 3600.0)
+    if failed:
+        sys.exit(f"{args.source}: its tests fail without a mutant")
+    limit = 3.0 * seconds + 5.0  # an endless loop is noticed
+    order = {file: nearest_first(file, files) for file, *_ in chosen}
     for count, (file, number, line, what) in enumerate(sorted(chosen), 1):
-        if not fails(file, number, tests[file], limits[file])[0]:
+        if not fails(file, number, order[file], limit)[0]:
             survivors.append((file, line, what))
             print(f"survives: {file}:{line}: {what}", flush=True)
         if count % 25 == 0:
