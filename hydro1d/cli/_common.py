@@ -52,7 +52,10 @@ def refuse_result(target: Path) -> Path:
 
 
 def refuse_other_kind(target: Path, table: bool) -> None:
-    """A run does not replace the table of a sweep, nor a sweep the result of a run. Raises FileProblem."""
+    """A run does not replace the table of a sweep, nor a sweep the result of a run. Raises FileProblem.
+
+    `target` has been through `check_target`: what is there is hydro1d's.
+    """
     from hydro1d.errors import FileProblem
     from hydro1d.store.seal import has_seal
 
@@ -67,11 +70,8 @@ def refuse_other_kind(target: Path, table: bool) -> None:
 def _content(path: Path) -> str:
     import h5py
 
-    try:
-        with h5py.File(path, "r", locking=False) as file:
-            return str(file.attrs.get("content", ""))
-    except OSError:
-        return ""
+    with h5py.File(path, "r", locking=False) as file:  # that it can be read was seen when the target was checked
+        return str(file.attrs.get("content", ""))
 
 
 def add_deck(parser: argparse.ArgumentParser) -> None:

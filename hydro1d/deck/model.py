@@ -31,7 +31,7 @@ LONGEST_NAME = 200
 def plain_text(text: str) -> str:
     """Return ``text`` if files and terminals can show it. Raises ValueError for control characters and the like."""
     if any(unicodedata.category(character) in ("Cc", "Cs") for character in text):
-        raise ValueError(f"{shorten(text)} has control characters; allowed: text that can be printed")
+        raise ValueError(f"{shorten(text)} has control characters; it must be text that can be printed")
     return text
 
 

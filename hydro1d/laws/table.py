@@ -24,8 +24,6 @@ class Table(Foam):
         points = np.array(self.curve, dtype=float)
         if len(points) < 2 or (len(points) == 2 and points[0, 0] == points[0, 1] == 0.0):
             raise ValueError("curve needs two points at least besides the origin")
-        if not np.isfinite(points).all():
-            raise ValueError("curve holds NaN or infinity")
         first, last = points[0, 0], points[-1, 0]
         if not ((np.diff(points[:, 0]) > 0).all() and first >= 0.0 and last < 1.0):
             raise ValueError(

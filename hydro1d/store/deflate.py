@@ -49,10 +49,8 @@ def _noise(planes: np.ndarray) -> int:
 
 
 def _compresses(plane: np.ndarray) -> bool:
-    sample = plane
-    if plane.size > _SAMPLE:
-        step = plane.size // _PIECES
-        sample = plane[: step * _PIECES].reshape(_PIECES, step)[:, : _SAMPLE // _PIECES]
+    step = plane.size // _PIECES
+    sample = plane[: step * _PIECES].reshape(_PIECES, step)[:, : _SAMPLE // _PIECES]
     return len(zlib.compress(sample.tobytes(), LEVEL)) < _WORTHWHILE * sample.size + 16
 
 

@@ -72,6 +72,8 @@ def campaign(seeds: range, path: Path) -> Counter:
         if word not in ("valid", "refused"):
             bad.append((seed, deck.kind, word[:300]))
     print(dict(words), f"slowest {slowest[0]:.2f} s, number {slowest[1]}")
+    for seed, kind, word in bad:
+        print(f"number {seed}, {kind}: {word}")
     assert not bad, bad[:20]
     assert slowest[0] < LONGEST, slowest
     return words

@@ -1,5 +1,6 @@
 """What rarely happens: clean-ups that come in between, systems that refuse, records that do not fit each other."""
 
+import dataclasses
 import errno
 import os
 import shutil
@@ -163,6 +164,43 @@ def test_a_seal_that_lies_about_its_size(tmp_path):
         path.write_bytes(damaged)
         with pytest.raises(FileProblem, match="does not fit its checksum"):
             open_run(path)
+
+
+def test_full_blocks_that_wait_while_there_is_a_working_file(tmp_path):
+    layout = made_up.layout(profiles=3)  # blocks of three profiles, 11 kB
+    with Hdf5Sink(tmp_path / "a.h5", layout, made_up.DECK_TEXT, made_up.RESOLVED, buffer_bytes=20_000) as sink:
+        made_up.record(sink, 0, 6)
+        assert len(list(tmp_path.glob(".hydro1d-*"))) == 1, "two blocks were more than the buffer takes"
+        made_up.record(sink, 6, 10)
+        run = open_run(sink.finish("complete", 1, 0.0))
+    same(run, made_up.expected(10))
+
+
+def test_what_the_library_quotes_of_the_system(tmp_path):
+    with (
+        pytest.raises(FileProblem, match=r"^cannot open [^:]*a\.h5: No such file or directory$"),
+        files.explained("open", tmp_path / "a.h5"),
+        h5py.File(tmp_path / "nowhere" / "a.h5", "w"),
+    ):
+        pass
+
+
+def test_the_table_of_a_sweep_is_no_run(tmp_path):
+    path = write(tmp_path / "a.h5", 2)
+    with h5py.File(path, "r+") as file:
+        file.attrs["content"] = "table"
+    with pytest.raises(FileProblem, match=r"is a table of hydro1d sweep, not the result of a run"):
+        open_run(path)
+
+
+def test_a_run_without_history_and_probes_describes_itself():
+    layout = dataclasses.replace(made_up.layout(probes=0), history=())
+    sink = MemorySink(layout, "", {})
+    sink.profile(made_up.frame(0))
+    run = sink.finish("complete", 0, 0.0)
+    assert "history" not in repr(run) and "profiles" in repr(run)
+    tree = run.to_xarray()
+    assert not tree.children and tree["stress"].shape == (1, 50)
 
 
 def test_an_empty_run_in_memory_describes_itself():
