@@ -18,6 +18,7 @@ from hydro1d.fit._models import MODELS, Model, Parameter
 
 _MOST_POINTS = 1500
 _PENALTY = 1e3
+_WRONG_SHAPE = 0.1  # weighted rms: machines and foams scatter by less
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,11 @@ class Fit:
             found.append(
                 f"{_listed(self.at_bound)} went to the end of what a fit allows: the curve ends before it shows what that "
                 "stands for, or does not have the shape of the law. Look at the residuals; another law may fit better"
+            )
+        if self.relative_rms > _WRONG_SHAPE:
+            found.append(
+                f"the law misses the curve by {100.0 * self.relative_rms:.2g} % as weighted: the curve does not have its shape. "
+                f'Another law may fit better ({", ".join(fittable())}), and law = "table" takes the curve itself'
             )
         return found
 

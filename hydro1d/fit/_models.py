@@ -30,21 +30,24 @@ class Model(NamedTuple):
     needs_density: bool = False
 
 
-def first_slope(curve: MeasuredCurve, plateau: float) -> float:
-    """Elastic modulus to start from, Pa: the slope between a tenth and six tenths of the plateau stress."""
-    rising = np.flatnonzero(curve.stress >= 0.9 * plateau)
+def first_slope(curve: MeasuredCurve, level: float) -> float:
+    """Elastic modulus to start from, Pa: the slope between a tenth and six tenths of a stress at which the curve yields."""
+    rising = np.flatnonzero(curve.stress >= 0.9 * level)
     end = int(rising[0]) if len(rising) else len(curve.strain) - 1
     strain, stress = curve.strain[: end + 1], curve.stress[: end + 1]
-    inside = (stress > 0.1 * plateau) & (stress < 0.6 * plateau)
+    inside = (stress > 0.1 * level) & (stress < 0.6 * level)
     if inside.sum() >= 3:
         slope = float(np.polyfit(strain[inside], stress[inside], 1)[0])
         if slope > 0.0:
             return slope
-    return plateau / max(float(curve.strain[end]), 1e-3)
+    return level / max(float(curve.strain[end]), 1e-3)
 
 
-def _elastic(curve: MeasuredCurve, plateau: float) -> Parameter:
-    slope = first_slope(curve, plateau)
+def _elastic(curve: MeasuredCurve, found: Efficiency) -> Parameter:
+    """A curve without a knee yields, for this purpose, at its plateau stress."""
+    plateau = found.plateau_stress
+    yielded = float(np.interp(found.yield_strain, curve.strain, curve.stress)) if found.yield_strain > 0.0 else plateau
+    slope = first_slope(curve, min(yielded, plateau))
     least = 1.05 * plateau / max(float(curve.strain[-1]), 0.05)
     return Parameter("modulus", "Pa", max(slope, 1.5 * least), least, 100.0 * max(slope, 1.5 * least))
 
@@ -69,7 +72,7 @@ def _tangent(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Pa
 def _common(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
     plateau = found.plateau_stress
     last = float(curve.strain[-1])
-    return [_elastic(curve, plateau), _plateau("plateau_stress", plateau), _densification(found, last)]
+    return [_elastic(curve, found), _plateau("plateau_stress", plateau), _densification(found, last)]
 
 
 def _epph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
@@ -84,12 +87,12 @@ def _trilinear(curve: MeasuredCurve, found: Efficiency, density: float) -> list[
 def _rph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
     plateau = found.plateau_stress
     hardening = Parameter("hardening", "Pa", 0.1 * plateau, 1e-6 * plateau, 100.0 * plateau)
-    return [_elastic(curve, plateau), _plateau("plateau_stress", 0.8 * plateau), hardening]
+    return [_elastic(curve, found), _plateau("plateau_stress", 0.8 * plateau), hardening]
 
 
 def _eph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
     plateau = found.plateau_stress
-    modulus = _elastic(curve, plateau)
+    modulus = _elastic(curve, found)
     hardening = Parameter("hardening_modulus", "Pa", 0.01 * modulus.start, 1e-8 * modulus.start, 0.9 * modulus.low)
     return [modulus, _plateau("yield_stress", 0.8 * plateau), hardening]
 

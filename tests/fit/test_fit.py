@@ -63,6 +63,47 @@ def test_energy_efficiency_of_a_plateau_is_the_plateau():
     assert not fit.energy_efficiency(measured(TANGENT, last=0.5)).complete
 
 
+def rising(points, noise=0.0, yielded=0.4e6, rise=1.8e6, peak=0.0, seed=0):
+    """Elastic line, a plateau that rises from `yielded` by `rise` per strain to 0.6, densification beyond."""
+    strain = np.linspace(0.0, 0.9, points)[1:]
+    plateau = yielded + rise * np.minimum(strain, 0.6) + peak * np.exp(-(((strain - 0.05) / 0.02) ** 2))
+    stress = np.minimum(22e6 * strain, plateau + 60e6 * np.maximum(strain - 0.6, 0.0) ** 2 / (1.0 - strain))
+    return fit.MeasuredCurve(strain, stress * (1.0 + noise * np.random.default_rng(seed).standard_normal(points - 1)))
+
+
+@pytest.mark.parametrize("points, noise", [(12, 0.0), (30, 0.0), (300, 0.0), (3000, 0.0), (30, 0.05), (300, 0.05)])
+@pytest.mark.parametrize(
+    "yielded, rise, peak", [(0.8e6, 0.0, 0.0), (0.8e6, 0.5e6, 0.0), (0.4e6, 1.8e6, 0.0), (0.8e6, 0.1e6, 0.5e6)]
+)
+def test_energy_efficiency_of_a_rising_plateau_is_its_mean(points, noise, yielded, rise, peak):
+    found = fit.energy_efficiency(rising(points, noise, yielded, rise, peak))
+    # Densification sets in at 0.6, and its foot is flat. Of twelve points one lies every 0.08 of strain.
+    assert 0.6 - max(0.9 / points, 0.02) < found.densification_strain < 0.65
+    mean = yielded + rise * 0.5 * (found.yield_strain + found.densification_strain)
+    assert found.plateau_stress == pytest.approx(
+        mean, rel=0.05
+    )  # the foot, the knee and the peak's flank are in the mean
+    assert found.yield_strain < 0.09 and found.complete
+
+
+def test_a_curve_without_a_knee_is_averaged_from_its_beginning():
+    strain = np.linspace(0.0, 0.7, 100)
+    found = fit.energy_efficiency(fit.MeasuredCurve(strain, 1e6 * strain))
+    assert found.yield_strain == 0.0 and not found.complete
+    assert found.plateau_stress == pytest.approx(0.35e6, rel=1e-6)
+
+
+@pytest.mark.parametrize("law", fit.fittable())
+def test_every_law_finds_a_start_on_a_rising_plateau(law):
+    found = fit.fit_curve(rising(30), law, density=51.6)
+    assert found.relative_rms < 0.5
+
+
+def test_a_law_of_another_shape_than_the_curve_is_said():
+    assert any('law = "table"' in text for text in fit.fit_curve(rising(300)).warnings())
+    assert not any('law = "table"' in text for text in fit.fit_curve(measured(TANGENT, noise=0.02)).warnings())
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
