@@ -22,7 +22,7 @@ UNLOADINGS = 4
 def law(law: Law, name: str = "", top: float | None = None) -> tuple[Figure, np.ndarray]:
     """Loading and unloading, tangent and stiffness, Hugoniot, energy: a figure with Axes (2, 2).
 
-    top: the largest strain drawn; without, where the stress is twelve times the yield stress. Raises DeckError for a
+    top: the largest strain drawn; without, where the stress is twelve times that of the knee. Raises DeckError for a
     law that is no curve of the strain (gases).
     """
     if not loads_by_strain(law):
@@ -93,13 +93,14 @@ def _draw_moduli(axes: Axes, law: Law, strains: np.ndarray, tangents: np.ndarray
 
 
 def _draw_hugoniot(axes: Axes, law: Law, shock: Hugoniot) -> None:
-    axes.set_title("compaction shock from the yield point (Eqs. 35, 37)", fontsize=10)
-    axes.set_xlabel("velocity jump [v] (m/s)")
+    axes.set_title("compaction shock of a column at rest (Eqs. 35, 37)", fontsize=10)
+    axes.set_xlabel("velocity jump [v] over the shock (m/s)")
     if not len(shock.strain):
-        _say(axes, "no single shock from yield on this curve")
+        _say(axes, "no shock on this curve")
         return
     axes.plot(shock.velocity_jump, shock.strain, color=PALETTE[0], label="strain behind, left")
-    axes.set_ylabel("strain ε behind the front")
+    axes.plot(shock.velocity_jump, shock.foot, color=PALETTE[0], linewidth=0.9, alpha=0.6, label="strain ahead, left")
+    axes.set_ylabel("strain ε on both sides of the front")
     axes.set_ylim(0.0, 1.0)
     other = axes.twinx()
     other.plot(shock.velocity_jump, shock.front_speed, color=PALETTE[1], linestyle="--", label="front speed, right")
@@ -117,10 +118,10 @@ def _draw_energy(axes: Axes, shock: Hugoniot) -> None:
     axes.set_title("absorbed beyond yield: in a shock and quasi-statically (Eq. 22)", fontsize=10)
     axes.set_xlabel("strain ε behind the front")
     if not len(shock.strain):
-        _say(axes, "no single shock from yield on this curve")
+        _say(axes, "no shock on this curve")
         return
     scale = scale_for("J m-3", shock.shock_energy)
-    axes.plot(shock.strain, shock.shock_energy / scale.size, color=PALETTE[1], label="shock, ½(σA + σB)[ε]")
+    axes.plot(shock.strain, shock.shock_energy / scale.size, color=PALETTE[1], label="with the shock, ½(σA + σB)[ε]")
     axes.plot(shock.strain, shock.curve_energy / scale.size, color="#000000", label="under the curve")
     between = (shock.curve_energy / scale.size, shock.shock_energy / scale.size)
     axes.fill_between(shock.strain, *between, color=PALETTE[1], alpha=0.15, label="dissipated by the front alone")

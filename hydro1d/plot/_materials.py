@@ -46,15 +46,21 @@ def loads_by_strain(law: Law) -> bool:
     return answers[0] == answers[1] == answers[2]
 
 
-class Hugoniot(NamedTuple):
-    """Compaction shocks from the yield point, arrays over the strain behind them; SI.
+_LEAST_SHARE = 1e-6  # of the energy: a front that dissipates less is no shock
+_EVEN = 1.0 + 1e-9  # slopes as equal as their rounding are one line
 
-    strain; stress; velocity_jump [v]; front_speed [v]/[ε], Lagrangian; shock_energy ½(σA + σB)[ε] and curve_energy, the
-    area under the curve, both per initial volume from the yield point on.
+
+class Hugoniot(NamedTuple):
+    """Compaction shocks of a foam loaded from rest, arrays over the strain behind them; SI.
+
+    strain and stress behind the shock; foot, the strain ahead of it; velocity_jump [v]; front_speed [v]/[ε], Lagrangian;
+    shock_energy, along the curve to the foot and then ½(σA + σB)[ε], and curve_energy, the area under the curve, both per
+    initial volume from the yield point on.
     """
 
     strain: np.ndarray
     stress: np.ndarray
+    foot: np.ndarray
     velocity_jump: np.ndarray
     front_speed: np.ndarray
     shock_energy: np.ndarray
@@ -79,34 +85,60 @@ def strain_grid(law: Law, top: float, points: int = 600) -> np.ndarray:
 
 
 def top_strain(law: Law, ratio: float = 12.0) -> float:
-    """A strain to draw the curve to: where the stress is `ratio` times the yield stress, short of 1."""
-    found = float(law.strain_at(ratio)) if hasattr(law, "strain_at") else 0.5  # type: ignore[attr-defined]
-    return min(max(found, 0.02), 0.995)
+    """A strain to draw the curve to: where the stress is `ratio` times that of the knee, short of 1.
+
+    The knee is where the tangent has fallen to half of that at rest: a rounded one leaves the elastic line, and so yields
+    for the law, far below it.
+    """
+    strain = np.linspace(0.0, 0.995, 4000)
+    stress, tangent = curve(law, strain)
+    bent = np.flatnonzero(tangent <= 0.5 * tangent[0])
+    if not len(bent):
+        return 0.5
+    above = np.flatnonzero(stress >= ratio * stress[max(bent[0] - 1, 1)])
+    return max(float(strain[above[0]]), 0.02) if len(above) else 0.995
 
 
 def hugoniot_of(law: Law, top: float) -> Hugoniot:
-    """States behind single shocks from yield (Eqs. 35, 37) for the strains where the chord stays above the curve."""
-    start = float(getattr(law, "yield_strain", np.inf))
+    """The last front of a step from rest to each strain up to `top`, where that is a shock (Eqs. 35, 37)."""
     strain = strain_grid(law, top, 1200)
     stress, _ = curve(law, strain)
-    keep = strain > start
-    yielded = float(np.interp(start, strain, stress)) if keep.any() else np.inf
     energy = np.concatenate([[0.0], np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(strain))])
-    spent = energy - np.interp(start, strain, energy)
-    chord = np.full(len(strain), -np.inf)
-    chord[keep] = (stress[keep] - yielded) / (strain[keep] - start)
-    steepest = np.maximum.accumulate(np.where(keep, chord, -np.inf))
-    keep &= (chord >= steepest * (1.0 - 1e-9)) & (stress > yielded * (1.0 + 1e-9))
-    rise, change = (stress - yielded)[keep], (strain - start)[keep]
-    density = law.density
+    foot = _feet(strain, stress)
+    rise, change = stress - stress[foot], strain - strain[foot]
+    crossed = 0.5 * (stress + stress[foot]) * change
+    yielded = float(np.interp(min(float(getattr(law, "yield_strain", 0.0)), top), strain, energy))
+    keep = crossed - (energy - energy[foot]) > _LEAST_SHARE * crossed
+    rise, change = rise[keep], change[keep]
     return Hugoniot(
         strain[keep],
         stress[keep],
-        np.sqrt(rise * change / density),
-        np.sqrt(rise / change / density),
-        0.5 * (stress[keep] + yielded) * change,
-        spent[keep],
+        strain[foot[keep]],
+        np.sqrt(rise * change / law.density),
+        np.sqrt(rise / change / law.density),
+        crossed[keep] + energy[foot[keep]] - yielded,
+        energy[keep] - yielded,
     )
+
+
+def _feet(strain: np.ndarray, stress: np.ndarray) -> np.ndarray:
+    """For each point of a curve, the point ahead of the last front of a step there: the foot of its Rayleigh line.
+
+    The fronts are the edges of the smallest concave majorant of the curve from rest to the point (Liu, J. Math. Anal. Appl.
+    53 (1976) 78-88): at a corner the foot is the yield point; on a rounded knee it is where the Rayleigh line touches the
+    curve, with a fan of ever slower waves before it; the origin where the shock would overtake the elastic wave.
+    """
+    hull, feet = [0], np.zeros(len(strain), dtype=int)
+    for point in range(1, len(strain)):
+        while len(hull) > 1 and _slope(strain, stress, *hull[-2:]) <= _slope(strain, stress, hull[-1], point) * _EVEN:
+            hull.pop()
+        feet[point] = hull[-1]
+        hull.append(point)
+    return feet
+
+
+def _slope(strain: np.ndarray, stress: np.ndarray, first: int, second: int) -> float:
+    return float((stress[second] - stress[first]) / (strain[second] - strain[first]))
 
 
 def law_of_deck(deck: Deck, material: str | None = None) -> tuple[str, Law]:

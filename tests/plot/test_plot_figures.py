@@ -1,5 +1,7 @@
 """Figures: what functions return, what they say when they cannot draw."""
 
+import math
+
 import matplotlib
 import numpy as np
 import pytest
@@ -9,10 +11,14 @@ from synthetic import END, LENGTH, made_run
 
 import hydro1d
 from hydro1d import plot
+from hydro1d.boundaries.pressure import Pressure
+from hydro1d.boundaries.pulses.constant import Constant
+from hydro1d.boundaries.wall import Wall
 from hydro1d.errors import DeckError, FileProblem, Hydro1dError
 from hydro1d.laws.elastic import Elastic
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.ideal_gas import IdealGas
+from hydro1d.laws.trilinear import Trilinear
 from hydro1d.plot._frames import front_path, in_laboratory
 from hydro1d.plot._histories import extremes
 from hydro1d.plot._hugoniot import crossings
@@ -196,6 +202,59 @@ def test_hugoniot_of_a_law_is_the_theory():
     assert np.allclose(exact.strain, shock.strain[[300, -1]], rtol=1e-6)
     assert np.allclose(exact.front_speed, shock.front_speed[[300, -1]], rtol=1e-6)
     assert (shock.shock_energy >= shock.curve_energy * (1 - 1e-9)).all()
+    assert np.allclose(shock.foot, FOAM.yield_strain)
+
+
+class Rounded(hydro1d.Foam):
+    """A foam with a rounded knee: it leaves the elastic line long before it reaches its plateau."""
+
+    modulus: float = hydro1d.positive("Pa")
+    plateau: float = hydro1d.positive("Pa")
+
+    def loading(self, strain):
+        share = math.tanh(strain * self.modulus / self.plateau)
+        return self.plateau * share + 12e6 * strain**6, self.modulus * (1.0 - share * share) + 72e6 * strain**5
+
+
+ROUNDED = Rounded(density=80.0, modulus=30e6, plateau=0.5e6)
+
+
+def test_hugoniot_behind_a_rounded_knee_is_what_the_solver_does():
+    pressure, zones = 2e6, 400
+    shock = hugoniot_of(ROUNDED, 0.9)
+    run = hydro1d.run(
+        hydro1d.Deck(
+            layers=[hydro1d.Layer(law=ROUNDED, thickness=1.0, zones=zones)],
+            left=Pressure(pulse=Constant(peak=pressure)),
+            right=Wall(),
+            end=1.2e-3,
+            output={"profiles": 2},
+        )
+    )
+    time, front = run.history["time"], run.history["front_position"]
+    late = time > 0.5e-3
+    speed = np.polyfit(time[late], front[late], 1)[0]
+    assert run["strain"][-1, 5:30].mean() == pytest.approx(np.interp(pressure, shock.stress, shock.strain), rel=1e-3)
+    # The front's start, and its width against a metre of column: 0.4 % at 200 zones, 0.2 % at 400.
+    assert speed == pytest.approx(np.interp(pressure, shock.stress, shock.front_speed), rel=5e-3)
+    # The fan of waves before the front ends in its foot; a few zones ahead of the front it is still within it.
+    ahead = run["strain"][-1, int(front[-1] * zones) + 8]
+    assert ahead == pytest.approx(np.interp(pressure, shock.stress, shock.foot), rel=0.1)
+
+
+def test_a_rounded_knee_is_drawn_to_its_densification():
+    axes = plot.law(ROUNDED)[1]
+    assert axes[0, 0].get_xlim()[1] > 0.7
+    assert axes[1, 0].get_lines()  # a shock is drawn
+    assert not hugoniot_of(Elastic(density=1.0, modulus=1e6), 0.5).strain.size
+
+
+def test_a_front_that_overtakes_the_elastic_wave_runs_into_material_at_rest():
+    steep = Trilinear(density=50.0, modulus=2e6, plateau_stress=0.2e6, densification_strain=0.3, locking_modulus=50e6)
+    shock = hugoniot_of(steep, 0.9)
+    overtaking = shock.stress / shock.strain > steep.modulus
+    assert overtaking.any() and not overtaking.all()
+    assert (shock.foot[overtaking] == 0.0).all() and np.allclose(shock.foot[~overtaking], steep.yield_strain)
 
 
 def test_laws_without_a_shock_or_a_curve():
