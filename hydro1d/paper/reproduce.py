@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from hydro1d.paper import beyond, boundaries, curves, extended, fronts, masses, pulses, springs, strikers
+from hydro1d.paper import asked, beyond, boundaries, curves, extended, fronts, masses, pulses, springs, strikers
 from hydro1d.paper.page import write_page
 from hydro1d.paper.studies import studies
 from hydro1d.paper.workshop import QUICK, Size, Workshop
@@ -26,6 +26,7 @@ PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
     ("energy", beyond.energy_shares),
     ("left", extended.energy_left),
     ("fronts", fronts.fronts),
+    ("asked", asked.what_is_asked),
     ("studies", studies),
 )
 

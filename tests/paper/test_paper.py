@@ -82,7 +82,7 @@ def test_chains_while_the_pulse_acts():
     curves = [chain("reversible", 10, *REVERSIBLE, **later), chain("plastic", 10, *PLASTIC, **later)]
     traced = trace_curves(curves, [2.4e6], foam.eq30, 1e-2)
     found = {name: points[0].durations["fully_crushed"] / foam.eq30(2.4e6) for name, points in traced.items()}
-    assert found["reversible"] == pytest.approx(1.474, rel=0.02)  # a leapfrog of another make: 1.474 and 1.796
+    assert found["reversible"] == pytest.approx(1.474, rel=0.02)  # `rooms`: 1.474 and 1.796
     assert found["plastic"] == pytest.approx(1.796, rel=0.02)
 
 
@@ -171,4 +171,4 @@ def test_reproduce_says_what_there_is(tmp_path, capsys):
 @pytest.mark.slow
 def test_reproduce_quick(tmp_path):
     assert main(["reproduce", "--quick", "--out", str(tmp_path), "--quiet"]) == 0
-    assert len(list(tmp_path.glob("*.png"))) == 15
+    assert len(list(tmp_path.glob("*.png"))) == 16
