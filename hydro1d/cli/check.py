@@ -43,5 +43,27 @@ def reading(deck: Deck) -> list[str]:
     megabytes = profiles * zones * 8 * 8 / 1e6
     lines.append(f"until t = {_common.figure(deck.time.end, 's')}; {_common.count(profiles, 'profile')}, "
                  f"about {megabytes:.3g} MB before compression")  # fmt: skip
+    lines += _late_enough(deck)
     lines += [f"note: {file} is Python code that this deck names; it was run to check it" for file in deck.user_code()]
     return lines
+
+
+def _late_enough(deck: Deck) -> list[str]:
+    """A note where the calculation ends before its question can be answered."""
+    from hydro1d.arrival import arrival_of
+    from hydro1d.verdict import ends_of
+
+    arrival, end = arrival_of(deck), _common.figure(deck.time.end, "s")
+    if arrival is None:
+        return []
+    support = ends_of(deck).support
+    if deck.time.end < arrival.wave:
+        time = _common.figure(arrival.wave, "s")
+        return [
+            f"note: the wave needs about {time} to reach the support ({support} end), which feels nothing until t = {end}"
+        ]
+    if deck.time.end < arrival.front:
+        time = _common.figure(arrival.front, "s")
+        return [f"note: kept at its peak, the load drives a compaction front to the support ({support} end) in about {time}; "
+                f"at t = {end} it is under way, unless it has stopped"]  # fmt: skip
+    return []

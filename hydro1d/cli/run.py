@@ -6,7 +6,6 @@ import argparse
 from typing import TYPE_CHECKING
 
 from hydro1d.cli import _common
-from hydro1d.variables import HERALD
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -15,6 +14,7 @@ if TYPE_CHECKING:
     from hydro1d.deck import Deck
     from hydro1d.openings import Openings
     from hydro1d.store import Run
+    from hydro1d.verdict import Verdict
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -88,16 +88,20 @@ def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:
 
 def summary(deck: Deck, result: Run, output: Path, opened: Openings | None = None) -> list[str]:
     """Lines that answer first what a user runs the code for: is the load enhanced, is the column crushed."""
-    history = result.history
+    from hydro1d.verdict import verdict_of
+
+    history, verdict = result.history, verdict_of(result, deck)
+    end = _common.figure(float(history["time"][-1]), "s")
     lines = [f"{result.title}"] if result.title else []
-    lines.append(_loads(deck, history["peak_left_stress"][-1], history["peak_right_stress"][-1]))
+    lines.append(_loads(verdict, history["peak_left_stress"][-1], history["peak_right_stress"][-1]))
     uncrushed = float(history["uncrushed_fraction"][-1])
     if uncrushed == uncrushed:
         lines.append("column: fully crushed" if uncrushed <= 0.0 else f"column: {100 * uncrushed:.4g} % is not crushed")
+    if verdict.pending:
+        lines.append(f"not over at t = {end}: {' and '.join(verdict.pending)}; a later time.end may change the answers")
     if opened is not None:
         lines.append(_openings(opened))
     cycles, wall = int(result.attributes["cycles"]), float(result.attributes["wall_seconds"])
-    end = _common.figure(float(history["time"][-1]), "s")
     error = abs(history["energy_error"]).max()
     lines.append(
         f"{_common.count(cycles, 'cycle')} to t = {end} in {_common.figure(wall, 's')}; energy error {error:.1e}"
@@ -118,17 +122,18 @@ def _openings(opened: Openings) -> str:
     return text
 
 
-def _loads(deck: Deck, left: float, right: float) -> str:
+def _loads(verdict: Verdict, left: float, right: float) -> str:
     """Peak support stress over the peak of the applied pressure, where there is a pressure on one end."""
-    applied = {"left": deck.left.peak(), "right": deck.right.peak()}
-    loaded = [side for side, peak in applied.items() if peak > 0.0]
-    if len(loaded) != 1:
-        return f"peak stress on the ends: left {_common.figure(left, 'Pa')}, right {_common.figure(right, 'Pa')}"
-    support, peak = (right, applied["left"]) if loaded == ["left"] else (left, applied["right"])
-    support = support if support > HERALD * peak else 0.0
-    ratio = support / peak
-    outcome = "enhanced" if ratio > 1.0 else "attenuated"
+    from hydro1d.verdict import NOT_REACHED
+
+    if verdict.felt == 0.0 and verdict.applied > 0.0:
+        return f"support stress: {NOT_REACHED} (applied peak {_common.figure(verdict.applied, 'Pa')})"
+    if verdict.applied == 0.0:
+        late = f"; no wave has reached the {verdict.ends.support} end yet" if verdict.felt == 0.0 else ""
+        peaks = {"left": left, "right": right, **({verdict.ends.support: 0.0} if late else {})}
+        felt = ", ".join(f"{side} {_common.figure(peak, 'Pa')}" for side, peak in peaks.items())
+        return f"peak stress on the ends: {felt}{late}"
     return (
-        f"support stress: {outcome}, {ratio:.4g} times the applied peak "
-        f"({_common.figure(support, 'Pa')} over {_common.figure(peak, 'Pa')})"
+        f"support stress: {verdict.word}, {verdict.ratio:.4g} times the applied peak "
+        f"({_common.figure(verdict.felt, 'Pa')} over {_common.figure(verdict.applied, 'Pa')})"
     )

@@ -10,7 +10,7 @@ from hydro1d.errors import FileProblem
 from hydro1d.openings import find_openings
 from hydro1d.plot._base import name_of
 from hydro1d.plot._units import scale_for
-from hydro1d.variables import HERALD
+from hydro1d.verdict import NOT_REACHED, Verdict, verdict_of
 
 if TYPE_CHECKING:
     from hydro1d.deck import Deck
@@ -25,58 +25,48 @@ class Number(NamedTuple):
     remark: str = ""
 
 
-class Load(NamedTuple):
-    """Which end is loaded, which is the support, and the two peaks (Pa); applied is 0 where no pressure is given."""
-
-    loaded: str
-    support: str
-    applied: float
-    felt: float
-
-
-def load_of(run: Run) -> Load:
-    """The load, from the boundaries of the deck; the right end is the support where both or none is loaded."""
-    require_history(run)
-    driven = [side for side in ("left", "right") if run.deck.get(side, {}).get("pulse")]
-    moved = [side for side in ("left", "right") if run.deck.get(side, {}).get("type") in ("striker", "piston")]
-    sides = driven or moved
-    loaded = sides[0] if len(sides) == 1 else "left"
-    support = "right" if loaded == "left" else "left"
-    applied = float(run.attributes.get("peak_applied_pressure") or 0.0) if len(driven) == 1 else 0.0
-    felt, most = (float(run.history[name][-1]) for name in (f"peak_{support}_stress", "peak_stress"))
-    return Load(loaded, support, applied, felt if felt > HERALD * most else 0.0)
-
-
 def require_history(run: Run) -> None:
     """Raise FileProblem for a run without a single row of history."""
     if "time" not in run.history or not len(run.history["time"]):
         raise FileProblem(f"{name_of(run)} holds no history yet (status: {run.status})")
 
 
-def headline(run: Run) -> str:
+def headline(run: Run, deck: Deck | None = None) -> str:
     """The answer in a sentence or two; of a run that stopped early, only what it has shown up to there."""
-    load = load_of(run)
+    require_history(run)
+    verdict, left = verdict_of(run, deck), uncrushed(run)
     if run.status != "complete":
-        return _headline_so_far(run, load)
-    felt = scale_for("Pa", load.felt).show(load.felt)
-    if load.applied > 0.0:
-        ratio = load.felt / load.applied
-        word = "Enhanced" if ratio > 1.0 else "Attenuated"
-        applied = scale_for("Pa", load.applied).show(load.applied)
-        text = f"{word}: the {load.support} end feels {felt} at most, {ratio:.3g} times the applied peak of {applied}."
+        return _headline_so_far(run, verdict)
+    text = _answer(verdict)
+    if left is not None:
+        text += " The column is fully crushed." if left <= 0.0 else f" {100 * left:.3g} % of the column is not crushed."
+    if verdict.pending:
+        text += f" At the end {' and '.join(verdict.pending)}: a later end time may change this."
+    return text
+
+
+def _answer(verdict: Verdict) -> str:
+    support, felt = verdict.ends.support, scale_for("Pa", verdict.felt).show(verdict.felt)
+    if verdict.felt == 0.0:
+        undecided = f"{NOT_REACHED[0].upper()}{NOT_REACHED[1:]}."
+        return undecided if verdict.applied > 0.0 else f"The wave has not reached the {support} end."
+    if verdict.applied == 0.0:
+        return f"The {support} end feels {felt} at most."
+    applied = scale_for("Pa", verdict.applied).show(verdict.applied)
+    word = verdict.word[0].upper() + verdict.word[1:]
+    return f"{word}: the {support} end feels {felt} at most, {verdict.ratio:.3g} times the applied peak of {applied}."
+
+
+def _headline_so_far(run: Run, verdict: Verdict) -> str:
+    end, support = float(run.history["time"][-1]), verdict.ends.support
+    text = f"Up to {scale_for('s', end).show(end)} "
+    if verdict.felt == 0.0:
+        text += f"the wave has not reached the {support} end"
     else:
-        text = f"The {load.support} end feels {felt} at most."
-    left = uncrushed(run)
-    if left is None:
-        return text
-    return text + (" The column is fully crushed." if left <= 0.0 else f" {100 * left:.3g} % of it is not crushed.")
-
-
-def _headline_so_far(run: Run, load: Load) -> str:
-    felt, end = scale_for("Pa", load.felt).show(load.felt), float(run.history["time"][-1])
-    text = f"Up to {scale_for('s', end).show(end)} the {load.support} end has felt {felt} at most"
-    if load.applied > 0.0:
-        text += f", {load.felt / load.applied:.3g} times the applied peak of {scale_for('Pa', load.applied).show(load.applied)}"
+        text += f"the {support} end has felt {scale_for('Pa', verdict.felt).show(verdict.felt)} at most"
+        if verdict.applied > 0.0:
+            applied = scale_for("Pa", verdict.applied).show(verdict.applied)
+            text += f", {verdict.ratio:.3g} times the applied peak of {applied}"
     left = uncrushed(run)
     return text + ("." if left is None else f"; {100 * left:.3g} % of the column is not crushed yet.")
 
@@ -92,16 +82,17 @@ def uncrushed(run: Run) -> float | None:
 
 def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
     """Loads, crushing, steps."""
-    load, history = load_of(run), run.history
-    pressure = scale_for("Pa", [load.felt, load.applied])
+    require_history(run)
+    verdict, history = verdict_of(run, deck), run.history
+    pressure = scale_for("Pa", [verdict.felt, verdict.applied])
     rows = []
-    if load.applied > 0.0:
-        rows.append(Number("peak of the applied pressure", pressure.show(load.applied)))
-    rows.append(Number(f"peak stress on the support ({load.support} end)", pressure.show(load.felt), _when(run, load)))
-    if load.applied > 0.0:
-        ratio = load.felt / load.applied
-        word = "enhanced" if ratio > 1.0 else "attenuated" if run.status == "complete" else "so far"
-        rows.append(Number("support over applied", f"{ratio:.4g}", word))
+    if verdict.applied > 0.0:
+        rows.append(Number("peak of the applied pressure", pressure.show(verdict.applied)))
+    support = verdict.ends.support
+    when = _when(run, support) if verdict.felt > 0.0 else "the wave has not reached it"
+    rows.append(Number(f"peak stress on the support ({support} end)", pressure.show(verdict.felt), when))
+    if verdict.applied > 0.0:
+        rows.append(_ratio(run, verdict))
     peak = float(history["peak_stress"][-1])
     rows.append(Number("largest stress anywhere", scale_for("Pa", peak).show(peak), "every cycle counted"))
     left = uncrushed(run)
@@ -138,8 +129,15 @@ def _opened(run: Run, deck: Deck | None) -> list[Number]:
     return rows
 
 
-def _when(run: Run, load: Load) -> str:
-    values = run.history[f"{load.support}_stress"]
+def _ratio(run: Run, verdict: Verdict) -> Number:
+    if verdict.felt == 0.0:
+        return Number("support over applied", "–", "not decided yet")
+    early = run.status != "complete" and verdict.ratio <= 1.0
+    return Number("support over applied", f"{verdict.ratio:.4g}", "so far" if early else verdict.word)
+
+
+def _when(run: Run, support: str) -> str:
+    values = run.history[f"{support}_stress"]
     time = float(run.history["time"][int(np.nanargmax(values))])
     return f"at {scale_for('s', time).show(time, 3)}"
 

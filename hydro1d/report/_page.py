@@ -92,7 +92,7 @@ def _text(text: object) -> str:
 
 
 def _sections(run: Run, known: Deck | None, theory: Theory | str, deck: Any) -> Iterable[str]:
-    yield _head(run)
+    yield _head(run, known)
     yield f'<h2 id="column">The column</h2>{column_svg(run)}'
     yield '<h2 id="numbers">Key numbers</h2><div class="columns"><div>' + _table(key_numbers(run, known))
     yield "</div><div>" + _table(energy_numbers(run, known), "energy per area") + "</div></div>"
@@ -120,7 +120,7 @@ def _sections(run: Run, known: Deck | None, theory: Theory | str, deck: Any) -> 
     yield "<noscript><p class='answer warning'>Profiles and histories need JavaScript.</p></noscript>"
 
 
-def _head(run: Run) -> str:
+def _head(run: Run, known: Deck | None) -> str:
     version, created = run.attributes.get("hydro1d_version", "?"), run.attributes.get("created", "")
     where = run.path.name if run.path is not None else "in memory"
     parts = [f"<h1>{_text(run.title or 'hydro1d run')}</h1>"]
@@ -128,7 +128,7 @@ def _head(run: Run) -> str:
     if run.status != "complete":
         message = run.attributes.get("message") or "not finished; what follows is what there is so far"
         parts.append(f'<p class="answer warning">This run is {_text(run.status)}: {_text(message)}</p>')
-    parts.append(f'<p class="answer">{_text(headline(run))}</p>')
+    parts.append(f'<p class="answer">{_text(headline(run, known))}</p>')
     links = (
         ("numbers", "numbers"),
         ("theory", "theory"),

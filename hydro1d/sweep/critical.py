@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from hydro1d.sweep.flip import Flip, NoFlip, find_flip
 from hydro1d.sweep.job import Job, Stop, evaluate, override
 from hydro1d.sweep.outcome import parse_outcome
 from hydro1d.sweep.table import Column, Table
+from hydro1d.verdict import NOT_REACHED
 
 Evaluation = tuple[float, float, bool, float, str]  # along, value, answer, quantity, status
 
@@ -121,6 +123,8 @@ def _search(search: Search, asked_to_stop: Callable[[], bool]) -> Critical:
             raise Interrupted("interrupted")
         if row["status"] == "failed" and not answer:
             raise BreakdownError(f"at {search.key} = {value:.6g}: {row['error']}", -1, float("nan"), row["cycles"])
+        if wanted.quantity.name in ("enhanced", "enhancement") and math.isnan(quantity):
+            raise DeckError(f"at {search.key} = {value:.6g}: {NOT_REACHED}; choose a later time.end")
         kept.append((value, answer, quantity, row["status"]))
         return answer
 

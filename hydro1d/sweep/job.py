@@ -76,9 +76,9 @@ def evaluate(job: Job, asked_to_stop: Callable[[], bool] = lambda: False) -> Row
         return {"status": "failed", "error": _one_line(error), "cycles": 0, **nothing}
     row: Row = {"status": ending.status, "error": ending.message, "cycles": ending.cycles}
     row |= nothing
-    if ending.status != "failed":
-        row |= {name: parse_quantity(name).take(run, deck) for name in job.quantities}
     row |= {name: float(parse_outcome(name).of(run, deck)) for name in job.outcomes}
+    if ending.status != "failed":  # a quantity of an outcome's name knows more: it is NaN where nothing is decided
+        row |= {name: parse_quantity(name).take(run, deck) for name in job.quantities}
     return row
 
 

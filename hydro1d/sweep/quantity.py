@@ -17,6 +17,7 @@ from hydro1d.store import Run
 from hydro1d.sweep.energy import elastic_energy
 from hydro1d.units import UnitError, convert, is_number
 from hydro1d.variables import HISTORY
+from hydro1d.verdict import ends_of, felt_on
 
 _CALL = re.compile(r"\s*([A-Za-z_]\w*)\s*(?:\(\s*([^()]*?)\s*\))?\s*")
 _BOUNDARY_COLUMNS = {
@@ -63,12 +64,8 @@ def quantity_names() -> list[str]:
 
 
 def support_side(deck: Deck) -> str:
-    """The end away from the load: right, unless only the right end is loaded by a pressure or a moving body."""
-    return "left" if _is_loaded(deck.right) and not _is_loaded(deck.left) else "right"
-
-
-def _is_loaded(boundary: object) -> bool:
-    return boundary.peak() > 0.0 or hasattr(boundary, "velocity")  # type: ignore[attr-defined]
+    """The end away from the load."""
+    return ends_of(deck).support
 
 
 def applied_peak(deck: Deck) -> float:
@@ -85,8 +82,8 @@ def _peak_support(run: Run, deck: Deck) -> float:
 
 
 def _enhancement(run: Run, deck: Deck) -> float:
-    applied = applied_peak(deck)
-    return _peak_support(run, deck) / applied if applied > 0.0 else float("nan")
+    applied, felt = applied_peak(deck), felt_on(run, support_side(deck))
+    return felt / applied if applied > 0.0 and felt > 0.0 else float("nan")
 
 
 def _crushed_time(run: Run, deck: Deck) -> float:
@@ -135,7 +132,8 @@ def separated(run: Run, deck: Deck) -> float:
 
 
 def _is_enhanced(run: Run, deck: Deck) -> float:
-    return float(_enhancement(run, deck) > 1.0)
+    ratio = _enhancement(run, deck)
+    return float(ratio > 1.0) if ratio == ratio else float("nan")
 
 
 def _is_fully_crushed(run: Run, deck: Deck) -> float:
@@ -144,11 +142,19 @@ def _is_fully_crushed(run: Run, deck: Deck) -> float:
 
 _PLAIN: dict[str, tuple[str, str, Callable[[Run, Deck], float]]] = {
     "peak_support_stress": ("Pa", "largest stress on the end away from the load, every cycle counted", _peak_support),
-    "enhancement": ("1", "peak support stress over the largest applied pressure", _enhancement),
+    "enhancement": (
+        "1",
+        "peak support stress over the largest applied pressure; NaN until a wave has arrived",
+        _enhancement,
+    ),
     "uncrushed_fraction": ("1", "share of the length that is not crushed at the end", _last("uncrushed_fraction")),
     "peak_stress": ("Pa", "largest stress anywhere, every cycle counted", _last("peak_stress")),
     "crushed_time": ("s", "when the column is fully crushed; NaN if it never is", _crushed_time),
-    "enhanced": ("1", "1 if the peak support stress exceeds the applied pressure", _is_enhanced),
+    "enhanced": (
+        "1",
+        "1 if the peak support stress exceeds the applied pressure; NaN until a wave has arrived",
+        _is_enhanced,
+    ),
     "fully_crushed": ("1", "1 if every zone is crushed at the end", _is_fully_crushed),
     "separated": ("1", "1 if striker and column, or column and wall, have parted", separated),
     "boundary_work": ("J m-2", "work done on the column by both ends", _last("boundary_work")),

@@ -107,7 +107,18 @@ def test_a_run_that_stopped_claims_no_more_than_it_showed():
 def test_a_wave_that_has_not_arrived_is_nothing():
     run = made_run()
     run.history._arrays["peak_right_stress"] = np.full(400, 1.6e-115)
-    assert "feels 0 MPa at most, 0 times" in headline(run)
+    said = headline(run)
+    assert said.startswith("The wave has not reached the support; attenuated or enhanced is not decided yet.")
+    rows = {row.label: row for row in key_numbers(run, None)}
+    assert rows["support over applied"].remark == "not decided yet"
+    assert rows["peak stress on the support (right end)"].remark == "the wave has not reached it"
+
+
+def test_what_goes_on_at_the_end_is_said():
+    run = made_run()  # its front still runs
+    assert headline(run).startswith("Attenuated so far: ")
+    assert headline(run).endswith("At the end the column is still being crushed: a later end time may change this.")
+    assert {row.label: row.remark for row in key_numbers(run, None)}["support over applied"] == "attenuated so far"
 
 
 def test_theory_beside_the_run(result):
