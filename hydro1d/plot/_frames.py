@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydro1d.errors import DeckError
+from hydro1d.fronts import front_path
 from hydro1d.plot._units import Scale, scale_for
 
 if TYPE_CHECKING:
@@ -50,19 +51,6 @@ def fronts(run: Run, frame: str = "lagrangian", most: int = 1500) -> dict[str, t
             where = front_path(run, name)[::step]
             found[text] = (time[::step], where if frame == "lagrangian" else in_laboratory(run, time[::step], where))
     return found
-
-
-def front_path(run: Run, name: str) -> np.ndarray:
-    """Lagrangian coordinates (m) of a front; NaN too where the measure of a dying front leaves the column or leaps."""
-    where, nodes, time = run.history[name], run["node_coordinate"], run.history["time"]
-    where = np.where((where >= nodes[0]) & (where <= nodes[-1]), where, np.nan)
-    speed = np.abs(np.diff(where) / np.maximum(np.diff(time), 1e-300))
-    known = speed[np.isfinite(speed)]
-    if len(known) < 20:
-        return where
-    leaps = np.flatnonzero(speed > 5.0 * np.percentile(known, 95.0) + 1e-300)
-    far = np.abs(np.diff(where))[leaps] > 0.01 * (nodes[-1] - nodes[0])
-    return where if not far.any() else np.where(time <= time[leaps[far][0]], where, np.nan)
 
 
 def in_laboratory(run: Run, time: np.ndarray, where: np.ndarray) -> np.ndarray:

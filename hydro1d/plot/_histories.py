@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hydro1d.errors import FileProblem
+from hydro1d.fronts import front_path
 from hydro1d.plot._base import GREY, as_run, heading, legend, name_of, new_figure
-from hydro1d.plot._frames import FRONTS, front_path
+from hydro1d.plot._frames import FRONTS
 from hydro1d.plot._units import Scale, scale_for, words
 
 if TYPE_CHECKING:

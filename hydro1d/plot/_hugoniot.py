@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from hydro1d.fronts import front_path
 from hydro1d.plot._base import PALETTE, SEQUENTIAL, as_run, heading, legend, new_figure, profile_quantity, times_of
-from hydro1d.plot._frames import front_path
 from hydro1d.plot._materials import curve, deck_of, loads_by_strain, strain_grid
 from hydro1d.plot._units import Scale, scale_for
 

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hydro1d.fronts import front_path
 from hydro1d.plot._base import PALETTE
-from hydro1d.plot._frames import FRONTS, front_path
+from hydro1d.plot._frames import FRONTS
 from hydro1d.plot._histories import PANELS, extremes
 from hydro1d.plot._units import Scale, scale_for, words
 

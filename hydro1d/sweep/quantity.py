@@ -5,6 +5,7 @@ A name is looked up, an argument is a column of the history or a length; nothing
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from typing import NamedTuple
@@ -13,6 +14,7 @@ import numpy as np
 
 from hydro1d.deck import Deck
 from hydro1d.deck.messages import one_of, suggestion
+from hydro1d.fronts import front_arrival
 from hydro1d.store import Run
 from hydro1d.sweep.energy import elastic_energy
 from hydro1d.units import UnitError, convert, is_number
@@ -189,7 +191,12 @@ _REDUCTIONS: dict[str, tuple[str, Callable[[np.ndarray, np.ndarray], float]]] = 
     "time_of_max": ("time of the largest", lambda t, v: float(t[np.nanargmax(v)]) if _any(v) else float("nan")),
     "time_of_min": ("time of the smallest", lambda t, v: float(t[np.nanargmin(v)]) if _any(v) else float("nan")),
 }
-_ARRIVALS = {"front_arrival": ("front_position", 1.0), "distal_front_arrival": ("distal_front_position", -1.0)}
+_PROXIMAL, _DISTAL = "front_position", "distal_front_position"
+_ARRIVALS = {
+    "front_arrival": ((_PROXIMAL,), "arrival of the front from the left at"),
+    "distal_front_arrival": ((_DISTAL,), "arrival of the front from the right at"),
+    "crushed_time": ((_PROXIMAL, _DISTAL), "arrival of the first of the two fronts at"),
+}
 _EXAMPLES = {
     **{name: f"{name}(right_stress)" for name in _REDUCTIONS},
     **{name: f"{name}(0.5 m)" for name in _ARRIVALS},
@@ -223,25 +230,10 @@ def _arrival(name: str, argument: str) -> Quantity:
         position = convert(float(argument) if is_number(argument) else argument, "m")
     except UnitError as error:
         raise ValueError(f"{name} takes a Lagrangian position such as 0.5 m: {error}") from None
-    column, sign = _ARRIVALS[name]
+    columns, what = _ARRIVALS[name]
 
     def take(run: Run, deck: Deck) -> float:
-        time, front = np.asarray(run.history["time"]), np.asarray(run.history[column])
-        length = float(run["node_coordinate"][-1])
-        reached = front if sign > 0.0 else length - front
-        # No front is farther than what is crushed: where a front dies, its integral measure can stray.
-        seen = np.isfinite(front) & (reached <= (1.02 - run.history["uncrushed_fraction"]) * length)
-        time, front = time[seen], sign * front[seen]
-        passed = front >= sign * position
-        if not passed.any():
-            return float("nan")
-        k = int(np.argmax(passed))
-        if k == 0 or front[k] == front[k - 1]:
-            return float(time[k])
-        return float(
-            time[k - 1] + (sign * position - front[k - 1]) / (front[k] - front[k - 1]) * (time[k] - time[k - 1])
-        )
+        times = [front_arrival(run, column, position) for column in columns]
+        return min((time for time in times if not math.isnan(time)), default=float("nan"))
 
-    return Quantity(
-        f"{name}({argument})", "s", f"arrival of the {column.replace('_position', '')} at {position:g} m", take
-    )
+    return Quantity(f"{name}({argument})", "s", f"{what} {position:g} m", take)
