@@ -168,9 +168,8 @@ def _share(column: Column, progress: Callable[[float], None] | None) -> Callable
 
 def _raise_unless_complete(outcome: Outcome, written: Path | None, saved: Path | None = None) -> None:
     where = f"\n  what there is: {written}" if written is not None else ""
-    onward = f"\n  to go on: hydro1d run … --restart {saved}" if saved is not None else ""
     if outcome.status == "failed":
         zone = -1 if outcome.zone is None else outcome.zone
         raise BreakdownError(outcome.message + where, zone, outcome.time, outcome.cycles)
     if outcome.status == "interrupted":
-        raise Interrupted(f"interrupted at t = {outcome.time:.6g} s, cycle {outcome.cycles}{where}{onward}")
+        raise Interrupted(f"interrupted at t = {outcome.time:.6g} s, cycle {outcome.cycles}{where}", saved)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 class Hydro1dError(Exception):
@@ -56,6 +59,10 @@ class FileProblem(Hydro1dError):
 
 
 class Interrupted(Hydro1dError):
-    """Stopped by Ctrl-C or SIGTERM."""
+    """Stopped by Ctrl-C or SIGTERM; `checkpoint` is the file to restart from, if there is one, `text` what else to say."""
 
     exit_code = 130
+
+    def __init__(self, text: str, checkpoint: Path | None = None) -> None:
+        self.text, self.checkpoint = text, checkpoint
+        super().__init__(text if checkpoint is None else f"{text}\n  to go on: restart from {checkpoint}")

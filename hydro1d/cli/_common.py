@@ -90,14 +90,14 @@ def positive(text: str) -> int:
     return int(text)
 
 
-def figure(value: float, unit: str = "") -> str:
-    """Return a value as people read it: ``figure(3.6e6, "Pa")`` is "3.6 MPa"."""
-    if value != value or value in (float("inf"), -float("inf")):
-        return f"{value} {unit}".strip()
+def figure(value: float, unit: str = "", digits: int = 4) -> str:
+    """Return a value as people read it: ``figure(3.6e6, "Pa")`` is "3.6 MPa". Only a single unit takes a prefix."""
+    if not unit.isalpha() or unit == "kg" or value != value or value in (float("inf"), -float("inf")):
+        return f"{value:.{digits}g} {unit}".strip()
     for exponent, prefix in ((9, "G"), (6, "M"), (3, "k"), (0, ""), (-3, "m"), (-6, "u"), (-9, "n")):
         if abs(value) >= 0.9999999 * 10.0**exponent:
-            return f"{value / 10.0**exponent:.4g} {prefix}{unit}".strip()
-    return f"{value:.4g} {unit}".strip()
+            return f"{value / 10.0**exponent:.{digits}g} {prefix}{unit}"
+    return f"{value:.{digits}g} {unit}"
 
 
 def count(number: int, noun: str) -> str:

@@ -85,10 +85,11 @@ def run(args: argparse.Namespace) -> None:
 
 
 def _lines(args: argparse.Namespace, point: Critical) -> list[str]:
-    turn = "ends" if point.before else "begins"
+    turn, runs = "ends" if point.before else "begins", _common.count(len(point.evaluations), "run")
+    low, high = (_common.figure(value, point.units, 9) for value in (point.low, point.high))
     lines = [
-        f"{args.outcome} {turn} at {args.key} = {point.value:.6g}",
-        f"between {point.low:.9g} and {point.high:.9g}, {_common.count(len(point.evaluations), 'run')}",
+        f"{args.outcome} {turn} at {args.key} = {_common.figure(point.value, point.units, 6)}",
+        f"between {low} and {high}, {runs}",
     ]
     if not point.monotonic:
         lines.append("not monotonic: the outcome flips more than once in this bracket; this is the lowest flip")
@@ -97,7 +98,8 @@ def _lines(args: argparse.Namespace, point: Critical) -> list[str]:
 
 def _row(point: Critical) -> str:
     note = point.message or ("" if point.monotonic else "not monotonic")
-    return f"{point.along:16.6g} {point.value:16.6g}  {note}".rstrip()
+    along, value = _common.figure(point.along, point.along_units, 6), _common.figure(point.value, point.units, 6)
+    return f"{along:>16} {value:>16}  {note}".rstrip()
 
 
 def _value(text: str) -> Any:

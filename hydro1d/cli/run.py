@@ -55,6 +55,7 @@ def run(args: argparse.Namespace) -> None:
 def _calculate(args: argparse.Namespace, deck: Deck, output: Path, told: Callable[[float], None] | None = None) -> Run:
     """Run the deck; `told` hears of progress as well as the terminal does."""
     from hydro1d.api import run as calculate
+    from hydro1d.errors import Interrupted
 
     with _common.progress_bar(args.quiet) as shown:
 
@@ -64,7 +65,22 @@ def _calculate(args: argparse.Namespace, deck: Deck, output: Path, told: Callabl
                     listener(share)
 
         progress = both if told is not None else shown
-        return calculate(deck, output, restart=args.restart, force=args.force, progress=progress)
+        try:
+            return calculate(deck, output, restart=args.restart, force=args.force, progress=progress)
+        except Interrupted as error:
+            onward = f"\n  to go on: {_onward(args, error.checkpoint)}" if error.checkpoint is not None else ""
+            raise Interrupted(error.text + onward) from None
+
+
+def _onward(args: argparse.Namespace, checkpoint: Path) -> str:
+    """The command that goes on from a checkpoint: this one, with all that it was given."""
+    import shlex
+
+    words = ["hydro1d", "run", str(args.deck)]
+    words += [word for text in args.overrides for word in ("--set", text)]
+    for option, value in (("-o", args.output), ("--log-json", args.log_json), ("--restart", checkpoint)):
+        words += [option, str(value)] if value is not None else []
+    return shlex.join([*words, "--quiet"] if args.quiet else words)
 
 
 def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:

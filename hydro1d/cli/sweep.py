@@ -64,17 +64,18 @@ def run(args: argparse.Namespace) -> int:
 
 def _reasons(sweep: Sweep, table: Table, failed: list[int]) -> list[str]:
     """A line for each of the first runs that failed: where they stand, and why they did."""
-    lines = []
+    lines, units = [], [table.columns[parameter.label].units for parameter in sweep.parameters]
     for k in failed[:MOST_REASONS]:
-        where = ", ".join(f"{p.label} = {_shown(v)}" for p, v in zip(sweep.parameters, sweep.points()[k], strict=True))
+        point = zip(sweep.parameters, sweep.points()[k], units, strict=True)
+        where = ", ".join(f"{p.label} = {_shown(value, unit)}" for p, value, unit in point)
         lines.append(f"  run {k}, {where}: {table['error'][k]}")
     if len(failed) > MOST_REASONS:
         lines.append(f"  … and {len(failed) - MOST_REASONS} more; the column error of the table holds all reasons")
     return lines
 
 
-def _shown(value: object) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+def _shown(value: object, unit: str) -> str:
+    return _common.figure(value, unit, 6) if isinstance(value, float) else str(value)
 
 
 @contextmanager

@@ -8,11 +8,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hydro1d.deck import load_deck
+from hydro1d.deck import Deck, load_deck
 from hydro1d.deck.messages import path_text
 from hydro1d.deck.overrides import Override, parse_override
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
+from hydro1d.parameters import Component
 from hydro1d.sweep.job import Job, override
 from hydro1d.units import UnitError, convert, parse_unit
 
@@ -84,3 +85,26 @@ def number_of(data: Mapping[str, Any], folder: str, key: str, value: Any, overri
     if isinstance(number, bool) or not isinstance(number, int | float):
         raise DeckError(f"{key} = {value}: not a number")
     return float(number)
+
+
+def unit_of(deck: Deck, key: str) -> str:
+    """The SI unit of a key's values, as in "kg/m^3"; empty for counts, words and pure numbers."""
+    *place, name = check_key(key).path
+    for component in _components(deck, place):
+        field = type(component).model_fields.get(str(name))
+        extra = field.json_schema_extra if field is not None else None
+        if isinstance(extra, dict) and "unit" in extra:
+            return "" if extra["unit"] == "1" else str(extra["unit"])
+    return ""
+
+
+def _components(deck: Deck, place: Sequence[str | int]) -> list[Component]:
+    """What keeps its parameters at this place of a deck's text."""
+    if len(place) == 2 and place[0] == "material":
+        return [layer.law for layer in deck.layers if layer.material == place[1]]
+    if len(place) == 2 and place[0] == "layer":
+        return [deck.layers[int(place[1])]]
+    if len(place) != 1 or place[0] not in ("left", "right", "time", "viscosity", "output", "checkpoint"):
+        return []
+    part = getattr(deck, str(place[0]))
+    return [found for found in (part, getattr(part, "pulse", None)) if isinstance(found, Component)]

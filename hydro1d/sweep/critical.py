@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from hydro1d.errors import BreakdownError, DeckError, Interrupted
-from hydro1d.sweep.base import base_data, number_of, threads_here
+from hydro1d.sweep.base import base_data, number_of, threads_here, unit_of
 from hydro1d.sweep.flip import Flip, NoFlip, find_flip
 from hydro1d.sweep.job import Job, Stop, evaluate, override
 from hydro1d.sweep.outcome import parse_outcome
@@ -34,17 +34,19 @@ class Search:
     tolerance: float
     scan: int
     spacing: str
+    units: str = ""
 
     def at(self, key: str, value: Any) -> Search:
         """The same search with one more key set."""
-        from dataclasses import replace
-
         return replace(self, overrides=(*self.overrides, override(key, value)))
 
 
 @dataclass(frozen=True)
 class Critical:
-    """One critical value, NaN if nothing flips (`message` says so), and value, answer, quantity, status of each run."""
+    """One critical value, NaN if nothing flips (`message` says so), and value, answer, quantity, status of each run.
+
+    units: SI units of the key, empty where it has none.
+    """
 
     value: float
     low: float
@@ -54,6 +56,8 @@ class Critical:
     evaluations: list[tuple[float, bool, float, str]]
     message: str = ""
     along: float = float("nan")
+    units: str = ""
+    along_units: str = ""
 
 
 def critical(
@@ -102,8 +106,9 @@ def prepare(
     if spacing == "log" and first <= 0.0:
         raise DeckError(f"{key}: log spacing needs a bracket above zero, not {low}")
     search = Search(data, folder, tuple(overrides), key, first, last, outcome, tolerance, scan, spacing)
-    wanted.check(_job(search, first).deck())
-    return search
+    deck = _job(search, first).deck()
+    wanted.check(deck)
+    return replace(search, units=unit_of(deck, key))
 
 
 def _job(search: Search, value: float) -> Job:
@@ -116,22 +121,31 @@ def _search(search: Search, asked_to_stop: Callable[[], bool]) -> Critical:
     wanted = parse_outcome(search.outcome)
     kept: list[tuple[float, bool, float, str]] = []
 
+    def shown(value: float) -> str:
+        return f"{value:.6g} {search.units}".rstrip()
+
     def decide(value: float) -> bool:
         row = evaluate(_job(search, value), asked_to_stop)
         answer, quantity = row[search.outcome] == 1.0, row[wanted.quantity.name]
         if row["status"] == "interrupted":
             raise Interrupted("interrupted")
         if row["status"] == "failed" and not answer:
-            raise BreakdownError(f"at {search.key} = {value:.6g}: {row['error']}", -1, float("nan"), row["cycles"])
+            raise BreakdownError(f"at {search.key} = {shown(value)}: {row['error']}", -1, float("nan"), row["cycles"])
         if wanted.quantity.name in ("enhanced", "enhancement") and math.isnan(quantity):
-            raise DeckError(f"at {search.key} = {value:.6g}: {NOT_REACHED}; choose a later time.end")
+            raise DeckError(f"at {search.key} = {shown(value)}: {NOT_REACHED}; choose a later time.end")
         kept.append((value, answer, quantity, row["status"]))
         return answer
 
     flip: Flip = find_flip(
-        decide, search.low, search.high, tolerance=search.tolerance, scan=search.scan, spacing=search.spacing
+        decide,
+        search.low,
+        search.high,
+        tolerance=search.tolerance,
+        scan=search.scan,
+        spacing=search.spacing,
+        shown=shown,
     )
-    return Critical(flip.value, flip.low, flip.high, flip.before, flip.monotonic, kept)
+    return Critical(flip.value, flip.low, flip.high, flip.before, flip.monotonic, kept, units=search.units)
 
 
 def trace(
@@ -157,6 +171,7 @@ def trace(
     of ``values``.
     """
     search = prepare(base, key, low, high, outcome, (*overrides, override(along, values[0])), tolerance, scan, spacing)
+    along_units = unit_of(_job(search, search.low).deck(), along)
     numbers = [number_of(search.data, search.folder, along, value, overrides) for value in values]
     search = prepare(base, key, low, high, outcome, overrides, tolerance, scan, spacing)
     stop = Stop()
@@ -166,7 +181,7 @@ def trace(
         for number in numbers:
             arguments = (search.at(along, number), number)
             futures.append(pool.submit(_point, *arguments, *(() if executor else (stop,))))
-        return _gathered(futures, progress)
+        return [replace(point, along_units=along_units) for point in _gathered(futures, progress)]
     except (KeyboardInterrupt, Interrupted, CancelledError):
         stop.set()
         raise Interrupted("interrupted") from None
@@ -190,25 +205,27 @@ def _never() -> bool:
 
 
 def _point(search: Search, along: float, asked_to_stop: Callable[[], bool] = _never) -> Critical:
-    from dataclasses import replace
-
     nothing = (float("nan"), float("nan"), float("nan"))
     try:
         return replace(_search(search, asked_to_stop), along=along)
     except NoFlip as error:
         kept = [(value, answer, float("nan"), "complete") for value, answer in error.evaluations]
-        return Critical(*nothing, error.answer, True, kept, str(error), along)
+        return Critical(*nothing, error.answer, True, kept, str(error), along, search.units)
     except (BreakdownError, DeckError) as error:
-        return Critical(*nothing, None, True, [], " ".join(str(error).split()), along)
+        return Critical(*nothing, None, True, [], " ".join(str(error).split()), along, search.units)
 
 
 def evaluations_table(points: Sequence[Critical], key: str, outcome: str, along: str | None = None) -> Table:
     """Every run of a search: the key's value, the answer, the quantity behind it."""
     quantity = parse_outcome(outcome).quantity
     rows = [(point.along, *kept) for point in points for kept in point.evaluations]
-    columns = [] if along is None else [Column(along, "", "the key along which was searched", [row[0] for row in rows])]
+    columns = (
+        []
+        if along is None
+        else [Column(along, points[0].along_units, "the key along which was searched", [row[0] for row in rows])]
+    )
     columns += [
-        Column(key, "", "the key searched", [row[1] for row in rows]),
+        Column(key, points[0].units, "the key searched", [row[1] for row in rows]),
         Column("outcome", "1", f"1 if {outcome}", [float(row[2]) for row in rows]),
         Column(quantity.name, quantity.units, quantity.long_name, [row[3] for row in rows]),
         Column("status", "", "how the run ended", [row[4] for row in rows]),
@@ -220,10 +237,10 @@ def boundary_table(points: Sequence[Critical], key: str, outcome: str, along: st
     """The boundary: the critical value of the key for each value of the other."""
     return Table(
         [
-            Column(along, "", "the key along which was searched", [point.along for point in points]),
-            Column(key, "", f"value at which {outcome} flips", [point.value for point in points]),
-            Column("low", "", "lower end of the last bracket", [point.low for point in points]),
-            Column("high", "", "upper end of the last bracket", [point.high for point in points]),
+            Column(along, points[0].along_units, "the key along which was searched", [point.along for point in points]),
+            Column(key, points[0].units, f"value at which {outcome} flips", [point.value for point in points]),
+            Column("low", points[0].units, "lower end of the last bracket", [point.low for point in points]),
+            Column("high", points[0].units, "upper end of the last bracket", [point.high for point in points]),
             Column("monotonic", "1", "1 if one change was seen", [float(point.monotonic) for point in points]),
             Column("message", "", "why there is no value", [point.message for point in points]),
         ]

@@ -54,21 +54,22 @@ def find_flip(
     tolerance: float = 1e-3,
     scan: int = 5,
     spacing: str = "linear",
+    shown: Callable[[float], str] = "{:.6g}".format,
 ) -> Flip:
     """Bracket the change of ``decide`` between low and high to a relative ``tolerance``.
 
     ``scan`` evaluations spread over the whole bracket come first and show whether there is just one change; bisection
-    follows. None for an answer means that there is none; such values of the scan are left out. Raises NoFlip if all
-    agree, and if bisection meets a None.
+    follows. None for an answer means that there is none; such values of the scan are left out. ``shown`` writes
+    values in messages. Raises NoFlip if all agree, and if bisection meets a None.
     """
     answers = [(value, decide(value)) for value in scan_points(low, high, max(scan, 2), spacing)]
     evaluations = [(value, bool(answer)) for value, answer in answers if answer is not None]
     if not evaluations:
-        raise NoFlip(f"there is no answer from {low:.6g} to {high:.6g}", False, [])
+        raise NoFlip(f"there is no answer from {shown(low)} to {shown(high)}", False, [])
     changes = [k for k in range(len(evaluations) - 1) if evaluations[k][1] != evaluations[k + 1][1]]
     if not changes:
         answer = evaluations[0][1]
-        text = f"the outcome is {'yes' if answer else 'no'} from {low:.6g} to {high:.6g}: nothing flips in this bracket"
+        text = f"the outcome is {'yes' if answer else 'no'} from {shown(low)} to {shown(high)}: nothing flips in this bracket"
         raise NoFlip(text, answer, evaluations)
     before = evaluations[changes[0]][1]
     (a, _), (b, _) = evaluations[changes[0]], evaluations[changes[0] + 1]
@@ -78,7 +79,7 @@ def find_flip(
             break
         found = decide(middle)
         if found is None:
-            raise NoFlip(f"there is no answer at {middle:.6g}, between no and yes", before, evaluations)
+            raise NoFlip(f"there is no answer at {shown(middle)}, between no and yes", before, evaluations)
         answer = bool(found)
         evaluations.append((middle, answer))
         a, b = (middle, b) if answer == before else (a, middle)

@@ -15,7 +15,7 @@ from pydantic import Field, field_validator, model_validator
 from hydro1d.deck.messages import Finding, deck_error
 from hydro1d.errors import DeckError
 from hydro1d.parameters import Component
-from hydro1d.sweep.base import base_data, check_key, si, value_problem
+from hydro1d.sweep.base import base_data, check_key, si, unit_of, value_problem
 from hydro1d.sweep.job import Job, override
 from hydro1d.sweep.quantity import parse_quantity
 
@@ -156,6 +156,14 @@ class Sweep:
     def points(self) -> list[tuple[Any, ...]]:
         """Values of the parameters of each run, SI; in a grid the first parameter changes slowest."""
         return self._points
+
+    def units(self) -> list[str]:
+        """SI unit of each parameter's values; empty for words, counts and pure numbers, and where keys of several units move."""
+        deck, units = self.jobs()[0].deck(), []
+        for parameter in self.parameters:
+            own = {unit_of(deck, key) for key in parameter.keys}
+            units.append(own.pop() if len(own) == 1 else "")
+        return units
 
     def jobs(self) -> list[Job]:
         """The runs to do."""

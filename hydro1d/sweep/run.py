@@ -109,8 +109,11 @@ def digest(sweep: Sweep) -> str:
 
 
 def _table(sweep: Sweep, rows: list[dict[str, Any]]) -> Table:
+    units = sweep.units()
     columns = [
-        Column(parameter.label, "", f"parameter {', '.join(parameter.keys)}", [point[k] for point in sweep.points()])
+        Column(
+            parameter.label, units[k], f"parameter {', '.join(parameter.keys)}", [point[k] for point in sweep.points()]
+        )
         for k, parameter in enumerate(sweep.parameters)
     ]
     for name in sweep.quantities:

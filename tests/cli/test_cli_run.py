@@ -1,6 +1,7 @@
 """The command line: run, its output, its exit codes, and what every command says of mistakes."""
 
 import json
+import shlex
 import sys
 import time
 from pathlib import Path
@@ -92,6 +93,21 @@ def test_exit_codes(deck, calculated, capfd, monkeypatch, error, code, words):
     assert out == ""
     assert words in err
     assert "Traceback" not in err
+
+
+def test_the_way_on_is_a_command_with_all_that_was_given(deck, calculated, capsys, tmp_path):
+    calculated.answer = Interrupted("interrupted at t = 1 s", tmp_path / "x.checkpoint-64.h5")
+    given = [deck, "--set", 'left.peak="3 MPa"', "--set", "layer[0].zones=40", "-o", "my result.h5", "--quiet"]
+    assert main(["run", *given]) == 130
+    err = capsys.readouterr().err
+    assert "restart from" not in err
+    command = err.split("to go on: ")[1].strip()
+    words = shlex.split(command)
+    assert words == ["hydro1d", "run", *given[:-1], "--restart", str(tmp_path / "x.checkpoint-64.h5"), "--quiet"]
+    calculated.answer = outcome()
+    assert main(words[1:]) == 0
+    first, again = calculated.calls
+    assert (again.deck, again.output) == (first.deck, first.output) and again.restart == tmp_path / "x.checkpoint-64.h5"
 
 
 def test_debugging_shows_the_error_itself(deck, calculated, monkeypatch):
@@ -263,6 +279,7 @@ def test_figures(value, text):
 
 def test_figures_that_are_none():
     assert _common.figure(float("nan"), "Pa") == "nan Pa"
-    assert _common.figure(0.5) == "500 m"
+    assert _common.figure(0.5) == "0.5"
+    assert _common.figure(1234.5, "kg/m^3", 3) == "1.23e+03 kg/m^3"
     assert _common.count(1, "cycle") == "1 cycle"
     assert _common.count(2, "cycle") == "2 cycles"

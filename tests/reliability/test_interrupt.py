@@ -72,7 +72,8 @@ def test_a_run_that_is_asked_to_stop_goes_on_bit_for_bit(tmp_path):
     whole = hydro1d.run(DECK, tmp_path / "whole.h5")
     heard: list[Share] = []
     with pytest.raises(
-        hydro1d.Interrupted, match=r"interrupted at t = .*\n  what there is: .*\n  to go on: .*--restart"
+        hydro1d.Interrupted,
+        match=r"interrupted at t = .*\n  what there is: .*\n  to go on: restart from .*a.checkpoint-\d+\.h5",
     ):
         hydro1d.run(DECK, tmp_path / "a.h5", progress=asking(0.3, heard))
     assert heard[-1].time < 0.9 and heard[-1].cycles > 0

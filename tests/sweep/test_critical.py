@@ -1,10 +1,15 @@
 """The search for the value at which an outcome flips."""
 
+import re
+
 import pytest
 
 from hydro1d.cli import main
+from hydro1d.deck import load_deck
 from hydro1d.errors import DeckError
 from hydro1d.sweep import NoFlip, critical, find_flip, parse_outcome, trace
+from hydro1d.sweep.base import unit_of
+from hydro1d.sweep.critical import evaluations_table
 
 DECK = """
 [material.foam]
@@ -91,6 +96,32 @@ def test_outcomes_that_the_deck_cannot_show():
         critical(DECK, "left.duration", 2e-3, 1e-3, "enhanced")
 
 
+@pytest.mark.parametrize(
+    ("key", "unit"),
+    [
+        ("left.duration", "s"),
+        ("left.peak", "Pa"),
+        ("time.end", "s"),
+        ("time.cfl", ""),
+        ("layer[0].thickness", "m"),
+        ("layer[0].velocity", "m/s"),
+        ("layer[0].zones", ""),
+        ("material.foam.density", "kg/m^3"),
+        ("material.foam.stiffness", ""),
+        ("left", ""),
+        ("nothing.at.all", ""),
+    ],
+)
+def test_the_unit_of_a_key(key, unit):
+    assert unit_of(load_deck(DECK), key) == unit
+
+
+def test_a_table_of_a_search_has_units():
+    found = critical(DECK, "left.duration", "0.8 ms", "2.5 ms", "fully_crushed", tolerance=0.2)
+    table = evaluations_table([found], "left.duration", "fully_crushed")
+    assert table.columns["left.duration"].units == "s"
+
+
 def test_command_line(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "deck.toml").write_text(DECK)
@@ -107,10 +138,18 @@ def test_command_line(tmp_path, monkeypatch, capsys):
         "0.05",
     ]
     assert main([*common, "--outcome", "fully_crushed", "-o", "runs.csv"]) == 0
-    assert "fully_crushed begins at left.duration = 0.00" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert re.match(
+        r"fully_crushed begins at left\.duration = 1\.\d+ ms\nbetween 1\.\d+ ms and 1\.\d+ ms, \d+ runs\n", said
+    )
     assert (tmp_path / "runs.csv").read_text().startswith("run,left.duration,outcome,fully_crushed,status")
     arguments = ["--outcome", "fully_crushed", "--along", "left.peak", "--values", "3 MPa:4 MPa:2", "-o", "b.csv"]
     assert main([*common, *arguments]) == 0
+    rows = capsys.readouterr().out.splitlines()
+    assert rows[0].split() == ["left.peak", "left.duration"] and rows[1].split()[:2] == ["3", "MPa"]
+    assert re.fullmatch(r" +4 MPa +1\.\d+ ms", rows[2])
     assert len((tmp_path / "b.boundary.csv").read_text().splitlines()) == 3
+    assert main([*common[:-6], "--from", "0.1 ms", "--to", "0.2 ms", "--outcome", "fully_crushed"]) == 2
+    assert "the outcome is no from 0.0001 s to 0.0002 s: nothing flips" in capsys.readouterr().err
     assert main([*common, "--outcome", "exploded"]) == 2
     assert "is not an outcome" in capsys.readouterr().err

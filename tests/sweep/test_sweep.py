@@ -81,6 +81,7 @@ def test_hdf5_and_csv_hold_the_same(folder):
     again = read_table(folder / "t.h5")
     assert again.csv() == table.csv()
     assert again.columns["peak_support_stress"].units == "Pa"
+    assert (again.columns["left.peak"].units, again.columns["duration"].units) == ("Pa", "s")
 
 
 @pytest.mark.parametrize(
@@ -271,8 +272,8 @@ def test_command_line(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     assert main(["sweep", "sweep.toml"]) == 0
     out = capsys.readouterr()
-    assert "6 runs, 2 failed\n  run 4, left.peak = 9e+06, duration = 0.001: the " in out.out
-    assert "\n  run 5, left.peak = 9e+06, duration = 0.002: " in out.out
+    assert "6 runs, 2 failed\n  run 4, left.peak = 9 MPa, duration = 1 ms: the " in out.out
+    assert "\n  run 5, left.peak = 9 MPa, duration = 2 ms: " in out.out
     assert out.err == ""
     assert (folder / "sweep.csv").read_text().startswith("run,left.peak,duration,peak_support_stress")
     assert not (folder / "sweep.journal").exists()
