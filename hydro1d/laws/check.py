@@ -32,8 +32,6 @@ def check_law(law: Law) -> None:
         if isinstance(law, Foam):
             _check_start(law)
         _check_derived(law)
-    except DeckError:
-        raise
     except Exception as error:
         raise DeckError(f"law {type(law).__name__}: {_reason(error)}") from error
 
