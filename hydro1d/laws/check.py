@@ -33,7 +33,7 @@ def check_law(law: Law) -> None:
             _check_start(law)
         _check_derived(law)
     except Exception as error:
-        raise DeckError(f"law {type(law).__name__}: {_reason(error)}") from error
+        raise DeckError(f"law {type(law).__name__}: {_reason(law, error)}") from error
 
 
 def _check_start(law: Foam) -> None:
@@ -53,11 +53,18 @@ def _check_derived(law: Law) -> None:
         try:
             getattr(law, name)
         except Exception as error:
-            raise ValueError(f"its constant {name} cannot be computed: {_reason(error)}") from error
+            raise ValueError(f"its constant {name} cannot be computed: {_reason(law, error)}") from error
 
 
-def _reason(error: Exception) -> str:
-    return str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+def _reason(law: Law, error: Exception) -> str:
+    if isinstance(error, ValueError):
+        return str(error)
+    text = f"{type(error).__name__}: {error}"
+    if isinstance(error, ArithmeticError):  # parameters too far apart in size for floating point
+        values = {name: getattr(law, name) for name in type(law).model_fields}
+        given = ", ".join(f"{name} = {value:g}" for name, value in values.items() if isinstance(value, float))
+        text += f"; all that is computed must be finite, which it is not for {given}"
+    return text
 
 
 def _check_answer(law: Law, strain: float, answer: tuple, remembered: int) -> None:

@@ -300,6 +300,12 @@ def test_a_law_that_changes_its_mind_or_its_type():
         check_law(Listing(density=1.0))
 
 
+def test_parameters_that_floating_point_cannot_hold_together_are_named():
+    foam = EPPH(density=51.6, modulus=22e6, plateau_stress=0.8e6, densification_strain=0.689, shock_slope=1e-170)
+    with pytest.raises(DeckError, match=r"^law EPPH: ZeroDivisionError: .* must be finite, .* shock_slope = 1e-170$"):
+        check_law(foam)
+
+
 def test_a_law_is_driven_to_nine_tenths_and_pulled():
     asked = []
 
