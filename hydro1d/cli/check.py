@@ -43,6 +43,7 @@ def reading(deck: Deck) -> list[str]:
     megabytes = profiles * zones * 8 * 8 / 1e6
     lines.append(f"until t = {_common.figure(deck.time.end, 's')}; {_common.count(profiles, 'profile')}, "
                  f"about {megabytes:.3g} MB before compression")  # fmt: skip
+    lines += [f"note: {text}" for text in deck.notes]
     lines += _late_enough(deck)
     lines += [f"note: {file} is Python code that this deck names; it was run to check it" for file in deck.user_code()]
     return lines

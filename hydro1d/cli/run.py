@@ -44,8 +44,11 @@ def run(args: argparse.Namespace) -> None:
 
     check_target(output)
     _common.refuse_other_kind(output, table=False)
+    told = not args.quiet and str(args.log_json) != "-"
+    for note in deck.notes if told else ():
+        print(f"note: {note}", flush=True)  # before the calculation, which may be long and for nothing
     result = (_calculate if args.log_json is None else _logged)(args, deck, output)
-    if not args.quiet and str(args.log_json) != "-":
+    if told:
         from hydro1d.openings import MOST_VALUES, find_openings
 
         few = len(result.time) * len(result["zone"]) <= MOST_VALUES  # else reading them back would take long

@@ -34,6 +34,7 @@ from hydro1d.deck.model import (
     Time,
     plain_text,
 )
+from hydro1d.deck.plausible import notes_on
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
 from hydro1d.laws.base import Law
@@ -78,7 +79,8 @@ def load_deck(
     if found:
         raise _located(path, found, text, origins)
     try:
-        return Deck(**parts, names=builder.names, text=text, path=path)
+        deck = Deck(**parts, names=builder.names, text=text, path=path)
+        return deck.model_copy(update={"notes": notes_on(deck, data, builder.folder)})
     except DeckProblems as error:  # checks of the whole, which know no text
         raise _located(path, error.findings, text, origins) from None
 

@@ -112,7 +112,8 @@ class Deck(Component):
         )
 
     ``end`` and ``cfl`` may stand for ``time=Time(end=..., cfl=...)``. `names` holds how a deck's text calls its
-    components ("layer[0].law": "my_foam.py:MyFoam"); `text` and `path` are its text and file, if it has any.
+    components ("layer[0].law": "my_foam.py:MyFoam"); `text` and `path` are its text and file, if it has any; `notes` are
+    sentences about what is possible and hardly meant.
     """
 
     model_config = ConfigDict(arbitrary_types_allowed=False)
@@ -128,6 +129,7 @@ class Deck(Component):
     names: dict[str, str] = Field(default_factory=dict, repr=False)
     text: str = Field("", repr=False)
     path: Path | None = None
+    notes: tuple[str, ...] = Field((), repr=False)
 
     _plain_title = field_validator("title")(plain_text)
 

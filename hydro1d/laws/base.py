@@ -219,8 +219,8 @@ class PlateauFoam(Foam):
     def _yields_before_it_densifies(self) -> PlateauFoam:
         if not self.yield_strain < self.densification_strain:
             raise ValueError(
-                f"plateau_stress/modulus, the yield strain {self.yield_strain:.6g}, must be below "
-                f"densification_strain, {self.densification_strain:g}"
+                f"plateau_stress/modulus = {self.plateau_stress:g} Pa / {self.modulus:g} Pa, the yield strain "
+                f"{self.yield_strain:.6g}, must be below densification_strain, {self.densification_strain:g}"
             )
         return self
 

@@ -38,8 +38,14 @@ def check_law(law: Law) -> None:
 
 def _check_start(law: Foam) -> None:
     """Yield is where the curve leaves the elastic line; viscosity and crushing are measured by the stress there."""
-    if law.yield_strain > 0.0 and law.loading(law.yield_strain)[0] > 0.0:
-        return
+    try:
+        if law.yield_strain > 0.0 and law.loading(law.yield_strain)[0] > 0.0:
+            return
+    except ArithmeticError as error:
+        raise ValueError(
+            f"loading must have a stress at the yield strain, {law.yield_strain:.6g}, and raised {_reason(error)}; a curve that "
+            f"never falls below the elastic line needs a modulus above {law.modulus:.6g} Pa"
+        ) from error
     stress = law.loading(_START)[0]
     raise ValueError(
         f"loading must begin along the elastic line, stress = modulus × strain up to yield: at strain {_START:g} its stress "

@@ -39,7 +39,9 @@ class Table(Foam):
         if not (points[0, 1] >= 0.0 and points[-1, 1] > 0.0):
             raise ValueError("curve must have stresses from 0 or above to above 0")
         if not (self.modulus * points[:, 0] > points[:, 1]).any():
-            raise ValueError("curve never falls below the elastic line; the modulus is too small for it")
+            raise ValueError(
+                f"curve never falls below the elastic line; the modulus, {self.modulus:g} Pa, is too small"
+            )
         self.corners  # noqa: B018 (its own check, before anything is computed)
         return self
 

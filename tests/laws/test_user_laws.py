@@ -240,3 +240,9 @@ def test_a_constant_that_cannot_be_computed_is_named(tmp_path):
     (tmp_path / "mine.py").write_text(source + "\n    @derived\n    def speed(self):\n        return 1.0 / 0.0\n")
     with pytest.raises(hydro1d.DeckError, match="its constant speed cannot be computed: ZeroDivisionError"):
         hydro1d.load_deck(path)
+
+
+def test_a_law_that_has_no_stress_where_it_would_yield_is_refused():
+    text = "[material.foam]\nlaw = 'rph'\ndensity = 50\nmodulus = 1e3\nplateau_stress = 1e6\nhardening = 1e5\n"
+    with pytest.raises(hydro1d.DeckError, match="needs a modulus above 1000 Pa"):
+        hydro1d.load_deck(text + DECK[DECK.index("[[layer]]") :])

@@ -1,0 +1,147 @@
+"""A guess at forgotten units: plain numbers that are SI by rule and hardly by intent.
+
+A number with a unit is what its author says it is. A plain one is SI, and 0.8 for a stress of 0.8 MPa is easily written: it
+runs, and the result is nonsense. The bounds below are orders of magnitude away from what foams, metals and blasts have.
+
+Decks without dimensions, in which everything is of the order of one, are nobody's slip. They are known by their densities:
+only a deck with a material of `_LIGHTEST` or more, or with a solid too strong for its density, is looked at.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from pydantic import BaseModel
+
+from hydro1d.deck.messages import path_text
+
+if TYPE_CHECKING:
+    from hydro1d.deck.model import Deck
+    from hydro1d.deck.positions import Location
+    from hydro1d.laws.base import Law
+
+_LIGHTEST = 5.0  # kg/m³; lighter solids are laboratory curiosities, and gases have other stresses
+_STRONG = 1e5  # Pa: beyond any solid lighter than the least density below
+_MOST_NAMED = 3
+
+
+class _Range(NamedTuple):
+    """From where to where a quantity is plausible, and the unit that is likely to be missing below and above."""
+
+    least: float
+    most: float
+    below: str = ""
+    above: str = ""
+
+
+_MATERIAL = {
+    "Pa": _Range(1e3, math.inf, "MPa"),  # the softest foams bear 1 kPa before they densify
+    "kg/m^3": _Range(1.0, 3e4, "g/cm^3", "g/m^3"),  # the heaviest metals have 23 000
+}
+_COLUMN = {
+    "m": _Range(0.0, 1e2, above="mm"),
+    "m/s": _Range(0.0, 2e4, above="mm/s"),
+    "s": _Range(0.0, 1.0, above="ms"),
+}
+_LOAD = {"Pa": _Range(1e2, math.inf, "MPa"), **_COLUMN}  # a blast may be weak
+
+
+class _Number(NamedTuple):
+    """A number of the deck without a unit, and the SI unit that it has by rule."""
+
+    path: Location
+    value: float
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{path_text(self.path)} = {self.value:g} is {self.value:g} {self.unit}"
+
+
+def notes_on(deck: Deck, data: Mapping[str, Any], folder: Path) -> tuple[str, ...]:
+    """A sentence about the numbers of a deck that lack a unit, it seems; `data` are its values as they were written."""
+    laws = {layer.material: layer.law for layer in deck.layers}
+    if not any(law.density >= _LIGHTEST or _is_too_strong(law) for law in laws.values()):
+        return ()
+    odd = [(number, usual) for number, usual in _all(deck, laws, data, folder) if usual]
+    if not odd:
+        return ()
+    named = ", ".join(str(number) for number, _ in odd[:_MOST_NAMED])
+    more = f" and {len(odd) - _MOST_NAMED} more" if len(odd) > _MOST_NAMED else ""
+    first, usual = odd[0]
+    return (f'is a unit missing? {named}{more}: a number without a unit is SI; "{first.value:g} {usual}" has one',)
+
+
+def _all(deck: Deck, laws: Mapping[str, Law], data: Mapping[str, Any], folder: Path) -> Iterator[tuple[_Number, str]]:
+    """Every plain number of the deck, with the unit that it seems to lack or nothing."""
+    for name, law in laws.items():
+        path, table = ("material", name), data.get("material", {}).get(name, {})
+        for number in [*_numbers(path, table, type(law)), *_largest(path, table, law, folder)]:
+            light = number.unit == "kg/m^3" and not _is_too_strong(law)  # the least density is for solids
+            yield number, "" if light and number.value < _LIGHTEST else _lacking(number, _MATERIAL)
+    for index, (layer, table) in enumerate(zip(deck.layers, data.get("layer", ()), strict=False)):
+        for number in _numbers(("layer", index), table, type(layer)):
+            yield number, _lacking(number, _COLUMN)
+    for side in ("left", "right"):
+        boundary = getattr(deck, side)
+        for part in (boundary, getattr(boundary, "pulse", None)):
+            if isinstance(part, BaseModel):
+                for number in _numbers((side,), data.get(side, {}), type(part)):
+                    yield number, _lacking(number, _LOAD)
+    for number in _numbers(("time",), data.get("time", {}), type(deck.time)):
+        yield number, _lacking(number, _COLUMN)
+
+
+def _lacking(number: _Number, ranges: Mapping[str, _Range]) -> str:
+    """The unit that a number seems to lack; "" where it is plausible as it stands, or zero, or its unit has no range."""
+    known, size = ranges.get(number.unit), abs(number.value)
+    if known is None or size == 0.0:
+        return ""
+    return known.below if size < known.least else known.above if size > known.most else ""
+
+
+def _is_too_strong(law: Law) -> bool:
+    """Whether a solid is lighter than any and stronger than such a one could be: its density lacks a unit."""
+    stresses = [getattr(law, key) for key, unit in _units(type(law)).items() if unit == "Pa"]
+    strongest = max((value for value in stresses if isinstance(value, float)), default=0.0)
+    return law.density < _MATERIAL["kg/m^3"].least and strongest >= _STRONG and law.initial_energy == 0.0
+
+
+def _units(cls: type[BaseModel]) -> dict[str, str]:
+    """The unit of each field that has one."""
+    extras = {key: field.json_schema_extra for key, field in cls.model_fields.items()}
+    return {key: str(extra["unit"]) for key, extra in extras.items() if isinstance(extra, dict) and "unit" in extra}
+
+
+def _numbers(path: Location, table: Mapping[str, Any], cls: type[BaseModel]) -> list[_Number]:
+    return [
+        _Number((*path, key), float(table[key]), unit)
+        for key, unit in _units(cls).items()
+        if isinstance(table.get(key), int | float) and not isinstance(table[key], bool)
+    ]
+
+
+def _largest(path: Location, table: Mapping[str, Any], law: Law, folder: Path) -> list[_Number]:
+    """The largest stress of each curve that a material is given without a unit."""
+    found = []
+    for key, field in type(law).model_fields.items():
+        extra = field.json_schema_extra
+        if isinstance(extra, dict) and "units" in extra and key in table:
+            units = tuple(map(str, extra["units"]))  # type: ignore[arg-type]
+            if not _has_unit(table[key], units, folder):
+                found.append(_Number((*path, key), max(pair[1] for pair in getattr(law, key)), units[1]))
+    return found
+
+
+def _has_unit(table: Any, units: tuple[str, ...], folder: Path) -> bool:
+    """Whether the second column of a table, in the deck or in a file, was given with a unit."""
+    from hydro1d.tables import TableError, read_rows
+
+    if not isinstance(table, str):
+        return any(isinstance(row[1], str) for row in table)
+    try:
+        return bool(read_rows(table, (units[0], units[1]), folder)[1][1])
+    except TableError:  # changed since the law read it
+        return True
