@@ -43,8 +43,8 @@ def _check_start(law: Foam) -> None:
             return
     except ArithmeticError as error:
         raise ValueError(
-            f"loading must have a stress at the yield strain, {law.yield_strain:.6g}, and raised {_reason(error)}; a curve that "
-            f"never falls below the elastic line needs a modulus above {law.modulus:.6g} Pa"
+            f"loading must have a stress at the yield strain, {law.yield_strain:.6g}, and raised {type(error).__name__}; a curve "
+            f"that never falls below the elastic line needs a modulus above {law.modulus:.6g} Pa"
         ) from error
     stress = law.loading(_START)[0]
     raise ValueError(
