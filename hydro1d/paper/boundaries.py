@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from hydro1d.paper import foam
+from hydro1d.paper.bands import FINE_CHAIN, Outcomes, bands, draw, outcomes
 from hydro1d.paper.boundary import CRITERIA, Curve, Point, boundary_table, trace_curves
 from hydro1d.paper.masses import HARD
+from hydro1d.paper.rooms import Chain, critical
 from hydro1d.paper.springs import PLASTIC, chain
 from hydro1d.paper.workshop import (
     BLUE,
@@ -18,6 +21,7 @@ from hydro1d.paper.workshop import (
     GOLD,
     GREEN,
     GREY,
+    LILAC,
     ORANGE,
     PINK,
     PURPLE,
@@ -28,12 +32,13 @@ from hydro1d.paper.workshop import (
     plain,
 )
 from hydro1d.sweep import Column, Table
+from hydro1d.sweep.base import threads_here
 
 LINEAR_TOP = 5.4e6  # Pa: Eq. 39 ends at 5.5 MPa
-PLASTIC_TOP = 4.2e6  # Pa: above, plastic springs lock so near to the pole of Eq. 38 that their steps never end
-FINE_CHAIN = (
-    "time.cfl=0.02",
-)  # at 10 MPa springs come within 1e-15 of the pole; critical durations are sure to some 10 % there
+# Pa. The first spring takes up two thirds of (P - σP) L/N: its energy grows as σP β/rate ln(1/room), so its room falls by a
+# factor of 7 a MPa, and with it every further step. Above, a run of ten masses would be 1e7 (6 MPa) to 1e10 steps (10 MPa).
+PLASTIC_TOP = 5.1e6
+LOCKING = Chain(end_mass=0.5, plastic=True, lock=1e-2, cfl=0.02)  # what plastic springs come to near their pole
 TARGETS = (2.4e6, 3.6e6, 10e6)  # Pa
 
 
@@ -47,8 +52,12 @@ def figure_6(work: Workshop) -> None:
     """The boundary in (T, P) by every model."""
     pressures = [float(p) for p in np.linspace(1.5e6, 10e6, work.size.pressures)]
     traced = _trace(work, _continuum(work) + _chains(), pressures)
-    table = work.table("fig06_boundaries", _with_limits(work, boundary_table(traced, pressures)))
+    shares, found = outcomes(work, pressures)
+    table = _with_limits(work, boundary_table(traced, pressures))
+    made = [*table.columns.values(), *_band_columns(pressures, shares, found), *_locking_columns(work, pressures)]
+    table = work.table("fig06_boundaries", Table(made))
     _draw_6(work, table)
+    draw(work, pressures, shares, found)
     _eq30_numbers(work, table)
     _numbers_6(work, table)
 
@@ -85,7 +94,7 @@ def _continuum(work: Workshop) -> list[_Reach]:
         hardening("Eq. 38 fine", 2 * size.zones),
         *(hardening(name, size.zones) for name in ("Eq. 38", "Eq. 39")),
         *(stiffer("Eq. 38", h) for h in size.unloading),
-        stiffer("Eq. 39", size.unloading[-1]),
+        *(stiffer("Eq. 39", h) for h in size.unloading),
     ]
 
 
@@ -131,8 +140,31 @@ def _with_limits(work: Workshop, table: Table) -> Table:
     return Table(made)
 
 
+def _band_columns(pressures: Sequence[float], shares: np.ndarray, found: Outcomes) -> list[Column]:
+    """First and last change of the reversible chains of `rooms`, s."""
+    unit, made = np.array([foam.eq30(p) for p in pressures]), []
+    for name, said in found.items():
+        for edge, values in bands(shares, said)._asdict().items():
+            made.append(
+                Column(f"{name} {edge}", "s", f"{edge} change of the outcome, {plain(name)}", (unit * values).tolist())
+            )
+    return made
+
+
+def _locking_columns(work: Workshop, pressures: Sequence[float]) -> list[Column]:
+    """Plastic springs that become rigid links near their pole, s."""
+    made = []
+    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
+        for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True):
+            tasks = [pool.submit(critical, LOCKING, question, p, (0.7, 1.3)) for p in pressures]
+            values = [foam.eq30(p) * task.result().last for p, task in zip(pressures, tasks, strict=True)]
+            text = f"critical duration, plastic springs that lock, {plain(criterion)}"
+            made.append(Column(f"plastic locking {criterion}", "s", text, values))
+    return made
+
+
 def _draw_6(work: Workshop, table: Table) -> None:
-    figure, (left, right) = new_figure(12.5, 6.4, ncols=2, sharey=True)
+    figure, (left, right) = new_figure(12.5, 7.2, ncols=2, sharey=True)
     duration, pressure = foam.eq30_line(1e6, 10e6)
     left.plot(duration * 1e3, pressure / 1e6, color="black", lw=2.0, label="Eq. 30 (shock theory, R-P-P-L)")
     right.axvline(1.0, color="black", lw=2.0)
@@ -143,12 +175,13 @@ def _draw_6(work: Workshop, table: Table) -> None:
     left.set(xlabel="T (ms)", ylabel="P (MPa)", xlim=(0, 4), ylim=(0, 10.3))
     right.set(xlabel="T over Eq. 30", xlim=(0.3, 1.5))
     handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=7)
     caption = (
         "1 m of Rohacell-51 WF. To the right of a line the column is fully crushed, or the support stress exceeds P. "
         "E-P-P-H crushes fully sooner than Eq. 30 says, and enhances later at high pressure. Eq. 39 ends at 5.5 MPa. "
-        f"Plastic springs above {PLASTIC_TOP / 1e6:g} MPa only with β = {HARD[0]:g}, γ = {HARD[1]:g}: with "
-        f"β = {foam.BETA}, γ = {foam.GAMMA} they lock so near to the pole of Eq. 38 that the steps become too short."
+        f"Plastic springs above {PLASTIC_TOP / 1e6:g} MPa only as rigid links, or with β = {HARD[0]:g}, γ = {HARD[1]:g}: with "
+        f"β = {foam.BETA}, γ = {foam.GAMMA} they lock so near to the pole of Eq. 38 that the steps become too short. "
+        "Reversible springs with half a mass at the loaded end, the solver's chain, have a band and no boundary above 6 MPa."
     )
     work.picture("fig06", "Fig. 6: enhancement/attenuation boundary", caption, figure, table)
 
@@ -163,7 +196,7 @@ def _draw_continuum(ax: Any, table: Table, scale: np.ndarray, unloading: Sequenc
     pressure = table["pressure"] / 1e6
     colors = {"Eq. 38": RED, "Eq. 39": PURPLE}
     colors |= {f"Eq. 38 H={h:g}E": color for h, color in zip(unloading, (BROWN, GREEN), strict=False)}
-    colors[f"Eq. 39 H={unloading[-1]:g}E"] = PINK
+    colors |= {f"Eq. 39 H={h:g}E": color for h, color in zip(unloading, (LILAC, PINK), strict=False)}
     for name, color in colors.items():
         label = _words(name) if "H=" in name else f"{_words(name)}, H = E"
         for criterion, style in zip(CRITERIA, ("-", "--"), strict=True):
@@ -190,6 +223,22 @@ def _draw_chains(ax: Any, table: Table, scale: np.ndarray) -> None:
             look = {"ms": 3.5, "mfc": color} if mark == "s" else {"ms": 4.5, "mfc": "none"}
             drawn = f"ten masses, {label}: {plain(criterion)}"
             ax.plot(table[f"{name} {criterion}"] / scale, pressure, mark, color=color, label=drawn, **look)
+    _draw_rooms(ax, table, scale)
+
+
+def _draw_rooms(ax: Any, table: Table, scale: np.ndarray) -> None:
+    """The chains of `rooms`: a band, and lines."""
+    pressure = table["pressure"] / 1e6
+    first = np.minimum(*(table[f"half mass {criterion} first"] for criterion in CRITERIA)) / scale
+    last = np.maximum(*(table[f"half mass {criterion} last"] for criterion in CRITERIA)) / scale
+    ax.fill_betweenx(
+        pressure, first, last, color=BLUE, alpha=0.2, lw=0, label="ten masses, reversible: first to last change"
+    )
+    for criterion, style in zip(CRITERIA, ("-", "--"), strict=True):
+        label = f"ten equal masses, reversible: {plain(criterion)}"
+        ax.plot(table[f"equal masses {criterion} last"] / scale, pressure, style, color="navy", lw=1.0, label=label)
+        label = f"ten masses, plastic, rigid near the pole: {plain(criterion)}"
+        ax.plot(table[f"plastic locking {criterion}"] / scale, pressure, style, color=ORANGE, lw=1.0, label=label)
 
 
 def _eq30_numbers(work: Workshop, table: Table) -> None:
@@ -211,10 +260,11 @@ def _numbers_6(work: Workshop, table: Table) -> None:
         "Eq. 38": "E-P-P-H, Eq. 38",
         "Eq. 38 limit": "E-P-P-H, Eq. 38, zones extrapolated",
         "Eq. 39": "E-P-P-H, Eq. 39",
-        **{name: _words(name) for name in (*(f"Eq. 38 H={h:g}E" for h in stiffer), f"Eq. 39 H={stiffer[-1]:g}E")},
+        **{f"{law} H={h:g}E": _words(f"{law} H={h:g}E") for law in ("Eq. 38", "Eq. 39") for h in stiffer},
         "reversible": "ten masses, reversible",
         "plastic": "ten masses, plastic",
         "plastic hard": f"ten masses, plastic, β = {HARD[0]:g}, γ = {HARD[1]:g}",
+        "plastic locking": "ten masses, plastic, rigid links near the pole",
     }
     for k in dict.fromkeys(int(np.argmin(np.abs(pressure - target))) for target in TARGETS):
         note = f"at P = {pressure[k] / 1e6:.3g} MPa"

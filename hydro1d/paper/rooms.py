@@ -7,26 +7,27 @@ chain has half a mass at the loaded end; here that is a choice.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 
+from hydro1d.kernels import build
 from hydro1d.paper import foam
 from hydro1d.paper.boundary import Ending, at_rest
 from hydro1d.sweep import find_flip
-
-
-def _compiled(function: Callable) -> Any:
-    return njit(function, error_model="numpy", nogil=True)
-
 
 FULL = 1.0 - foam.LOCKING  # room at which hardening begins
 SLENDER = 1.0 - foam.PLATEAU / foam.MODULUS  # room at yield
 MODULUS, PLATEAU, DENSITY, LENGTH = foam.MODULUS, foam.PLATEAU, foam.DENSITY, foam.LENGTH
 FASTEST = 1.2  # most by which a step exceeds the one before
+
+# Places in what `march` is told.
+BETA, RATE, START, PLASTIC, LEAST_STRESS, LOCK, PRESSURE, DURATION, END, CFL, UNTIL_SETTLED = range(11)
+SIGNATURE = "ppppppppi"
 
 
 class Chain(NamedTuple):
@@ -57,23 +58,27 @@ class Story(NamedTuple):
     together: float
     support: float
     least_room: float
-    steps: int
+    steps: float
 
 
 def follow(chain: Chain, pressure: float, duration: float, end: float, until_settled: bool = False) -> Story:
     """The chain under a rectangular pulse (Pa, s) up to ``end`` (s), or until it has been crushed and enhanced."""
-    mass = np.full(chain.masses, foam.DENSITY * foam.LENGTH / chain.masses)
+    mass = np.full(chain.masses, DENSITY * LENGTH / chain.masses)
     mass[0] *= chain.end_mass
     rate, start = chain.gamma * 0.5 * math.pi / FULL, math.tan((1.0 - chain.gamma) * 0.5 * math.pi)
-    spring = (chain.beta, rate, start, float(chain.plastic), -math.inf if chain.pulls else 0.0, chain.lock)
-    return Story(*march(mass, spring, pressure, duration, end, chain.cfl, until_settled))
+    spring = (chain.beta, rate, start, chain.plastic, -math.inf if chain.pulls else 0.0, chain.lock)
+    told = np.array([*spring, pressure, duration, end, chain.cfl, until_settled], dtype=float)
+    room, least, rest = np.ones(chain.masses), np.ones(chain.masses), np.zeros((3, chain.masses + 1))
+    out = np.full(len(Story._fields), math.nan)
+    _marching()(told, mass, room, least, *rest, out, chain.masses)
+    return Story(*out.tolist())
 
 
 class Band(NamedTuple):
     """Durations over Eq. 30: the shortest to which the answer is yes, and the one from which on it is always yes."""
 
-    first: float
-    last: float
+    first: Any
+    last: Any
 
 
 def critical(
@@ -104,95 +109,102 @@ def answers(chain: Chain, pressure: float, shares: np.ndarray) -> tuple[np.ndarr
     return crushed, enhanced
 
 
-@_compiled
-def stress_and_stiffness(room: float, spring: tuple) -> tuple[float, float]:
+@functools.cache
+def _marching() -> Callable[..., None]:
+    """`march` for arrays, compiled, or as it stands for a debugger."""
+    if build.interpreted():
+        return march
+    where = build.address("chain of rooms", SIGNATURE, Path(__file__).read_text(encoding="utf-8"), lambda: march)
+    run = build.function(where, SIGNATURE)
+    return lambda *a: run(*(array.ctypes.data for array in a[:-1]), a[-1])
+
+
+def stress_and_stiffness(room: float, told: Any) -> tuple[float, float]:
     """Eq. 38 at this room, elastic in tension, Pa."""
     if room > SLENDER:
         return MODULUS * (1.0 - room), MODULUS
     if room > FULL:
         return PLATEAU, 0.0
-    beta, rate, start = spring[0], spring[1], spring[2]
-    rise = 1.0 / math.tan(rate * room)
-    return PLATEAU * (1.0 + beta * (rise - start)), PLATEAU * beta * rate * (1.0 + rise * rise)
+    rise = 1.0 / math.tan(told[RATE] * room)
+    scale = PLATEAU * told[BETA]
+    return PLATEAU + scale * (rise - told[START]), scale * told[RATE] * (1.0 + rise * rise)
 
 
-@_compiled
-def press(room: np.ndarray, least: np.ndarray, rigid: np.ndarray, stress: np.ndarray, spring: tuple) -> float:
+def press(told: Any, room: Any, least: Any, stress: Any, rigid: Any, count: int) -> float:
     """Stress of every spring that is no rigid link; returns the largest stiffness, Pa."""
-    plastic, least_stress, lock = spring[3], spring[4], spring[5]
     largest = MODULUS
-    for i in range(len(room)):
+    for i in range(count):
         least[i] = min(least[i], room[i])
-        if rigid[i]:
+        if rigid[i] > 0.0:
             continue
-        if plastic > 0.0 and room[i] > least[i]:
-            top, stiffness = stress_and_stiffness(least[i], spring)
+        if told[PLASTIC] > 0.0 and room[i] > least[i]:
+            top, stiffness = stress_and_stiffness(least[i], told)
             stiffness = max(stiffness, MODULUS)
             stress[i] = top - stiffness * (room[i] - least[i])
         else:
-            stress[i], stiffness = stress_and_stiffness(room[i], spring)
-        stress[i] = max(stress[i], least_stress)
+            stress[i], stiffness = stress_and_stiffness(room[i], told)
+        stress[i] = max(stress[i], told[LEAST_STRESS])
         largest = max(largest, stiffness)
-        rigid[i] = plastic > 0.0 and room[i] < lock
+        rigid[i] = 1.0 if told[PLASTIC] > 0.0 and room[i] < told[LOCK] else 0.0
     return largest
 
 
-@_compiled
-def push(
-    mass: np.ndarray, velocity: np.ndarray, stress: np.ndarray, rigid: np.ndarray, load: float, kick: float
-) -> None:
+def push(mass: Any, velocity: Any, stress: Any, rigid: Any, load: float, kick: float, count: int) -> None:
     """Kick masses; those that are linked move as one, and with the wall not at all."""
-    count, first = len(mass), 0
+    first = 0
     while first < count:
         last, heavy, momentum = first, mass[first], mass[first] * velocity[first]
-        while last < count and rigid[last]:
+        while last < count and rigid[last] > 0.0:
             last += 1
             if last < count:
                 heavy += mass[last]
                 momentum += mass[last] * velocity[last]
-        if last == count:
-            velocity[first:] = 0.0
-        else:
+        after = 0.0
+        if last < count:
             before = load if first == 0 else stress[first - 1]
-            velocity[first : last + 1] = (momentum + (before - stress[last]) * kick) / heavy
+            after = (momentum + (before - stress[last]) * kick) / heavy
+        for i in range(first, min(last + 1, count)):
+            velocity[i] = after
         first = last + 1
 
 
-@_compiled
-def soonest(room: np.ndarray, velocity: np.ndarray, size: float) -> float:
+def soonest(room: Any, velocity: Any, size: float, count: int) -> float:
     """Shortest time (s) in which a spring that closes would have no room left."""
     least = math.inf
-    for i in range(len(room)):
+    for i in range(count):
         closing = velocity[i] - velocity[i + 1]
         if closing > 0.0:
             least = min(least, room[i] * size / closing)
     return least
 
 
-@_compiled
 def march(
-    mass: np.ndarray, spring: tuple, pressure: float, duration: float, end: float, cfl: float, until_settled: bool
-) -> tuple[float, float, float, float, float, int]:
-    """The time loop of `follow`."""
-    count, size = len(mass), LENGTH / len(mass)
-    room, least, velocity = np.ones(count), np.ones(count), np.zeros(count + 1)
-    stress, rigid = np.zeros(count), np.zeros(count, dtype=np.bool_)
-    crushed = enhanced = together = math.nan
-    time = last = support = 0.0
-    steps = 0
-    while time < end:
-        stiffness = press(room, least, rigid, stress, spring)
-        support = max(support, stress[-1])
-        crushed = time if crushed != crushed and least.max() < FULL else crushed
-        together = time if together != together and room.max() < FULL else together
-        enhanced = time if enhanced != enhanced and stress[-1] > pressure else enhanced
-        if until_settled and crushed == crushed and enhanced == enhanced:
+    told: Any, mass: Any, room: Any, least: Any, velocity: Any, stress: Any, rigid: Any, out: Any, count: int
+) -> None:
+    """The time loop of `follow`; ``out`` is a `Story`, its first three places NaN."""
+    size, time, last, support, steps = LENGTH / count, 0.0, 0.0, 0.0, 0
+    while time < told[END]:
+        stiffness = press(told, room, least, stress, rigid, count)
+        support = max(support, stress[count - 1])
+        widest = widest_ever = 0.0
+        for i in range(count):
+            widest, widest_ever = max(widest, room[i]), max(widest_ever, least[i])
+        out[0] = time if out[0] != out[0] and widest_ever < FULL else out[0]
+        out[1] = time if out[1] != out[1] and stress[count - 1] > told[PRESSURE] else out[1]
+        out[2] = time if out[2] != out[2] and widest < FULL else out[2]
+        if told[UNTIL_SETTLED] > 0.0 and out[0] == out[0] and out[1] == out[1]:
             break
-        step = cfl * min(size * math.sqrt(DENSITY / stiffness), soonest(room, velocity, size))
+        step = told[CFL] * min(size * math.sqrt(DENSITY / stiffness), soonest(room, velocity, size, count))
         step = min(step, FASTEST * last) if last > 0.0 else step
-        if time < duration < time + step:
-            step = duration - time
-        push(mass, velocity, stress, rigid, pressure if time < duration else 0.0, 0.5 * (last + step))
-        room -= step / size * (velocity[:-1] - velocity[1:])
+        if time < told[DURATION] < time + step:
+            step = told[DURATION] - time
+        push(
+            mass, velocity, stress, rigid, told[PRESSURE] if time < told[DURATION] else 0.0, 0.5 * (last + step), count
+        )
+        for i in range(count):
+            room[i] -= step / size * (velocity[i] - velocity[i + 1])
         time, last, steps = time + step, step, steps + 1
-    return crushed, enhanced, together, support, least.min(), steps
+    narrowest = 1.0
+    for i in range(count):
+        narrowest = min(narrowest, least[i])
+    out[3], out[4], out[5] = support, narrowest, steps

@@ -23,7 +23,7 @@ from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
 
 BLUE, RED, GREEN, ORANGE = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00"
-PURPLE, GREY, BROWN, GOLD, PINK = "#7d3c98", "#777777", "#8b5a2b", "#d9b648", "#d98cb3"
+PURPLE, GREY, BROWN, GOLD, PINK, LILAC = "#7d3c98", "#777777", "#8b5a2b", "#d9b648", "#d98cb3", "#b9a3d4"
 
 
 class Number(NamedTuple):
@@ -69,6 +69,7 @@ class Size:
     tolerance: float = 1e-3
     map_points: int = 22
     strip_points: int = 25
+    band_points: int = 161
     energy_pressures: int = 10
     fine_zones: int = 1000
     striker_points: int = 8
@@ -86,6 +87,7 @@ QUICK = Size(
     tolerance=5e-3,
     map_points=9,
     strip_points=9,
+    band_points=41,
     energy_pressures=4,
     fine_zones=400,
     striker_points=3,

@@ -171,4 +171,4 @@ def test_reproduce_says_what_there_is(tmp_path, capsys):
 @pytest.mark.slow
 def test_reproduce_quick(tmp_path):
     assert main(["reproduce", "--quick", "--out", str(tmp_path), "--quiet"]) == 0
-    assert len(list(tmp_path.glob("*.png"))) == 16
+    assert len(list(tmp_path.glob("*.png"))) == 17

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hydro1d.paper import asked, foam
+from hydro1d.paper.bands import bands
 from hydro1d.paper.boundary import at_rest, critical_durations, with_the_pulse
 from hydro1d.paper.chain import equal_masses, spring
 from hydro1d.paper.rooms import Chain, answers, critical, follow, push, stress_and_stiffness
@@ -13,7 +14,7 @@ from hydro1d.paper.springs import PLASTIC, REVERSIBLE, chain
 
 HALF = Chain(end_mass=0.5)
 RATE = foam.GAMMA * 0.5 * math.pi / (1.0 - foam.LOCKING)
-EQ38 = (foam.BETA, RATE, math.tan((1.0 - foam.GAMMA) * 0.5 * math.pi))
+EQ38 = np.array([foam.BETA, RATE, math.tan((1.0 - foam.GAMMA) * 0.5 * math.pi)])
 
 
 def test_spring_and_its_stiffness():
@@ -60,12 +61,12 @@ def test_links_are_the_limit_of_springs_near_their_pole():
 
 def test_linked_masses_move_as_one_and_keep_their_momentum():
     mass, velocity = np.array([1.0, 2.0, 2.0, 2.0]), np.array([30.0, 10.0, -5.0, 0.0, 0.0])
-    stress, rigid = np.array([7.0, 0.0, 3.0, 2.0]), np.array([True, False, True, False])
+    stress, rigid = np.array([7.0, 0.0, 3.0, 2.0]), np.array([1.0, 0.0, 1.0, 0.0])
     before = np.sum(mass * velocity[:-1])
-    push(mass, velocity, stress, rigid, 5.0, 0.1)
+    push(mass, velocity, stress, rigid, 5.0, 0.1, 4)
     assert velocity[0] == velocity[1] != velocity[2] == velocity[3]
     assert np.sum(mass * velocity[:-1]) == pytest.approx(before + 0.1 * (5.0 - stress[-1]), rel=1e-14)
-    push(mass, velocity, stress, np.array([False, False, True, True]), 5.0, 0.1)
+    push(mass, velocity, stress, np.array([0.0, 0.0, 1.0, 1.0]), 5.0, 0.1, 4)
     assert np.all(velocity[2:] == 0.0)  # linked to the wall
     assert velocity[0] != velocity[1]
 
@@ -78,6 +79,13 @@ def test_a_half_mass_makes_the_outcome_change_again_and_again():
             assert fewest <= np.count_nonzero(np.diff(said)) <= most
             assert said[shares > 0.49].all()
             assert not said[shares < 0.33].any()
+
+
+def test_a_band_is_from_the_first_yes_to_the_last_no():
+    shares = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+    first, last = bands(shares, np.array([[0, 1, 0, 1, 1], [0, 0, 0, 1, 1]], dtype=bool))
+    assert first.tolist() == [1.5, 3.5]
+    assert last.tolist() == [3.5, 3.5]
 
 
 def test_while_the_pulse_acts():
