@@ -103,8 +103,12 @@ def name_of(run: Run) -> str:
 
 def heading(run: Run) -> str:
     """Title of a run, with its status where that is not `complete`."""
-    state = {"complete": "", "running": " (partial: not finished)"}.get(run.status, f" ({run.status})")
-    return _plain((run.title or (run.path.stem if run.path else "")) + state)
+    return _plain((run.title or (run.path.stem if run.path else "")) + state_of(run))
+
+
+def state_of(run: Run) -> str:
+    """In brackets what a run is that is not complete; else nothing."""
+    return {"complete": "", "running": " (partial: not finished)"}.get(run.status, f" ({run.status})")
 
 
 def _plain(text: str) -> str:
@@ -118,7 +122,8 @@ def times_of(run: Run, least: int = 1) -> np.ndarray:
     time = run.time if "time" in run else np.empty(0)
     if len(time) < least:
         held = "no profile" if len(time) == 0 else f"only {len(time)} profile" + "s" * (len(time) > 1)
-        raise FileProblem(f"{name_of(run)} holds {held}; this figure needs {least} (status: {run.status})")
+        others = "; profiles and history can be drawn" if len(time) else ""
+        raise FileProblem(f"{name_of(run)} holds {held}; this figure needs {least} (status: {run.status}){others}")
     return time
 
 

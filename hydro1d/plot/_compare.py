@@ -19,6 +19,7 @@ from hydro1d.plot._base import (
     nearest,
     new_figure,
     profile_quantity,
+    state_of,
     times_of,
 )
 from hydro1d.plot._frames import along
@@ -40,8 +41,8 @@ def compare(
 ) -> tuple[Figure, np.ndarray]:
     """Several runs in the same axes, a panel for each quantity.
 
-    A quantity of the history is drawn over time, one of the profiles over the column at `time` (s; without, at the end
-    of each run). Returns the Figure and its Axes (panels,). Raises FileProblem for what a run does not have.
+    A quantity of the history is drawn over time, one of the profiles over the column at `time` (s; without, in the
+    last one of each run). Returns the Figure and its Axes (panels,). Raises FileProblem for what a run does not have.
     """
     opened = [as_run(run) for run in runs]
     if not opened:
@@ -61,8 +62,12 @@ def labels_of(runs: Sequence[Run]) -> list[str]:
     """What to call the runs: by title where titles differ, else by file."""
     titles = [run.title for run in runs]
     if len(set(titles)) == len(runs) and all(titles):
-        return [title.replace("$", r"\$")[:60] for title in titles]
-    return [run.path.stem if run.path is not None else f"{run.title or 'run'} {k + 1}" for k, run in enumerate(runs)]
+        names = [title.replace("$", r"\$")[:60] for title in titles]
+    else:
+        names = [
+            run.path.stem if run.path is not None else f"{run.title or 'run'} {k + 1}" for k, run in enumerate(runs)
+        ]
+    return [name + state_of(run) for name, run in zip(names, runs, strict=True)]
 
 
 def _histories(axes: Axes, runs: Sequence[Run], names: Sequence[str], quantity: str) -> None:
@@ -84,6 +89,6 @@ def _profiles(axes: Axes, runs: Sequence[Run], names: Sequence[str], quantity: s
         x = along(run, quantity, index, "lagrangian") / length.size
         axes.plot(x, values[place][index] / scale.size, color=PALETTE[place % 8], linewidth=1.2, label=name)
     keep_in_view(axes, np.concatenate([value[-1] for value in values]) / scale.size)
-    when = "at the end" if time is None else f"at {scale_for('s', runs[0].time).show(time)}"
+    when = "in the last profile" if time is None else f"at {scale_for('s', runs[0].time).show(time)}"
     axes.set_xlabel(length.label("Lagrangian coordinate X"))
     axes.set_ylabel(scale.label(f"{words(quantity)} {when}"))

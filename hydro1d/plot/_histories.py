@@ -13,6 +13,7 @@ from hydro1d.errors import FileProblem
 from hydro1d.fronts import front_path
 from hydro1d.plot._base import GREY, as_run, heading, legend, name_of, new_figure
 from hydro1d.plot._frames import FRONTS
+from hydro1d.plot._materials import deck_of
 from hydro1d.plot._units import Scale, scale_for, words
 
 if TYPE_CHECKING:
@@ -26,7 +27,9 @@ PANELS: dict[str, tuple[str, ...]] = {
     "energy per area": ("kinetic_energy", "internal_energy", "boundary_work", "viscous_work"),
     "compaction front": ("front_position", "distal_front_position"),
 }
+END_STRESSES = ("left_stress", "right_stress")
 MOST_ROWS = 4000
+PULSE_POINTS = 400
 _STYLES = ("-", "--", "-.", ":")
 
 
@@ -54,8 +57,9 @@ def clock_of(run: Run) -> Scale:
 
 
 def draw_history(axes: Axes, run: Run, names: Sequence[str], label: str) -> None:
-    """Some quantities of one unit into given axes; the applied peak as a dotted line where stresses are drawn."""
-    curves = [curve for name in names for curve in _curves(run, name)]
+    """Some quantities of one unit into given axes; with stresses of the ends also the applied pressure, and dotted its peak."""
+    found = [curve for name in names for curve in _curves(run, name)]
+    curves = [curve for curve in found if np.isfinite(curve[2]).any()] or found
     units = run.describe(_path(names[0])).units
     scale = scale_for(units, [_bulk(values) for _, _, values in curves])
     clock = clock_of(run)
@@ -63,13 +67,32 @@ def draw_history(axes: Axes, run: Run, names: Sequence[str], label: str) -> None
         x, y = extremes(time, values, MOST_ROWS)
         style = _STYLES[place % len(_STYLES)] if len(curves) <= len(_STYLES) else "-"
         axes.plot(x / clock.size, y / scale.size, label=text, linewidth=1.2, linestyle=style)
+    applied = applied_pressures(run) if any(name in END_STRESSES for name in names) else []
+    for text, time, values in applied:
+        axes.plot(time / clock.size, values / scale.size, color=GREY, linestyle="--", linewidth=1.2, label=text)
     peak = float(run.attributes.get("peak_applied_pressure", 0.0) or 0.0)
     if units == "Pa" and peak > 0.0 and not names[0].startswith("probes/"):
-        axes.axhline(peak / scale.size, color=GREY, linestyle=":", linewidth=1.0, label="peak of the applied pressure")
+        label_of_peak = "its peak" if len(applied) == 1 else "peak of the applied pressure"
+        axes.axhline(peak / scale.size, color=GREY, linestyle=":", linewidth=1.0, label=label_of_peak)
     _clip(axes, [values / scale.size for _, _, values in curves])
     axes.set_ylabel(scale.label(label))
     axes.margins(x=0.01)
     legend(axes, ncols=4, loc="lower left", bbox_to_anchor=(0.0, 0.98), borderaxespad=0.0)
+
+
+def applied_pressures(run: Run) -> list[tuple[str, np.ndarray, np.ndarray]]:
+    """Label, times (s) and pressure (Pa) of the pulses on the ends; none where only code of the user's knows them."""
+    deck = deck_of(run)
+    found = []
+    for side in ("left", "right"):
+        pulse = getattr(getattr(deck, side, None), "pulse", None)
+        if pulse is not None:
+            end = float(run.history["time"][-1])
+            jumps = [time * (1.0 + step) for time in pulse.corners() for step in (-1e-9, 1e-9) if time < end]
+            times = np.unique(np.concatenate([np.linspace(0.0, end, PULSE_POINTS), jumps]))
+            found.append((side, times, np.array([pulse.pressure(float(time)) for time in times])))
+    several = len(found) > 1
+    return [(f"applied pressure, {side}" if several else "applied pressure", x, y) for side, x, y in found]
 
 
 def extremes(time: np.ndarray, values: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:

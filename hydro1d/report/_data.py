@@ -10,7 +10,7 @@ import numpy as np
 from hydro1d.fronts import front_path
 from hydro1d.plot._base import PALETTE
 from hydro1d.plot._frames import FRONTS
-from hydro1d.plot._histories import PANELS, extremes
+from hydro1d.plot._histories import END_STRESSES, PANELS, applied_pressures, extremes
 from hydro1d.plot._units import Scale, scale_for, words
 
 if TYPE_CHECKING:
@@ -138,6 +138,8 @@ def _histories(run: Run) -> dict[str, Any]:
     panels = []
     for label, names in PANELS.items():
         found = [(words(name), run.history["time"], _column(run, name)) for name in names if name in run.history]
+        if any(name in END_STRESSES for name in names):
+            found += applied_pressures(run)
         panels.append(_history(label, found, run.describe(f"history/{names[0]}").units, clock))
     panels += _shares(run, clock)
     panels += _probes(run, clock)

@@ -61,7 +61,7 @@ class Quantities:
         if name in keys:
             return name
         close = difflib.get_close_matches(str(name), keys, 1)
-        hint = f"; did you mean {close[0]!r}?" if close else ""
+        hint = f"; did you mean {close[0]!r}?" if close else "."
         where = f"/{self._prefix[:-1]} of " if self._prefix else ""
         there = ", ".join(keys) or "nothing"
         raise FileProblem(f"no quantity {name!r} in {where}{self._source.name}{hint} There is: {there}")

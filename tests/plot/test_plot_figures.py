@@ -133,6 +133,19 @@ def test_foam_that_opens_does_not_squeeze_the_plane():
     assert -0.11 < axes.get_xlim()[0] < 0.0
 
 
+def test_the_applied_pressure_is_drawn_with_its_corners():
+    _, axes = plot.history(made_run())
+    (line,) = [line for line in axes[0].get_lines() if line.get_label() == "applied pressure"]
+    t, p = line.get_data()
+    assert line.get_linestyle() == "--" and "its peak" in axes[0].get_legend_handles_labels()[1]
+    assert np.allclose(p[t < 1.53], 3.6) and np.allclose(p[t > 1.53], 0.0)
+    assert np.diff(t)[np.argmin(np.diff(p))] < 1e-6  # ms: a jump is a jump
+    assert all(line.get_label() != "applied pressure" for one in axes[1:] for line in one.get_lines())
+    unknown = {**made_run().deck, "left": {**made_run().deck["left"], "pulse": "evil.py:Pulse"}}
+    labels = plot.history(made_run(deck=unknown))[1][0].get_legend_handles_labels()[1]
+    assert labels == ["left stress", "right stress", "peak of the applied pressure"]
+
+
 def test_extremes_keep_peaks():
     time = np.linspace(0.0, 1.0, 50_000)
     values = np.sin(time)
@@ -144,6 +157,23 @@ def test_extremes_keep_peaks():
 def test_partial_run_is_drawn_and_named_so():
     figure, _ = plot.profiles(made_run(status="running"))
     assert "partial" in figure._suptitle.get_text()
+
+
+def test_an_overview_of_little_draws_what_there_is():
+    _, axes = plot.overview(made_run(times=1, status="interrupted"))
+    told = [one.texts[0].get_text().replace("\n", " ") if one.texts else "" for one in axes.flat]
+    assert [bool(text) for text in told] == [True, False, False, True]
+    assert told[0].endswith("this figure needs 2 (status: interrupted); profiles and history can be drawn")
+    _, axes = plot.overview(made_run(drop=("history",)))
+    assert "holds no history" in axes[0, 1].texts[0].get_text()
+    with pytest.raises(FileProblem, match="holds no profile"):
+        plot.overview(made_run(times=0, drop=("history",)))
+
+
+def test_a_comparison_says_which_run_is_not_whole():
+    _, axes = plot.compare([made_run(), made_run(times=1, status="interrupted")], labels=None)
+    assert axes[0].get_legend_handles_labels()[1] == ["A front by formula 1", "A front by formula 2 (interrupted)"]
+    assert axes[2].get_ylabel() == "strain ε in the last profile"
 
 
 @pytest.mark.parametrize(
