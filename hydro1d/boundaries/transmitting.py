@@ -8,7 +8,8 @@ from hydro1d.boundaries.base import Boundary, End
 class Transmitting(Boundary):
     """More of the same material for ever, as long as it stays elastic: the end feels initial stress − Z v, Z = ρ0 c.
 
-    Exact for elastic waves; a compaction front is stronger than an impedance and is reflected in part.
+    Exact for elastic waves; a compaction front is stronger than an impedance and is reflected in part. The material beyond
+    is at rest: a layer that moves from the start feels Z v from the start.
     """
 
     def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:

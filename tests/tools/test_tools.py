@@ -172,11 +172,27 @@ def test_track_front_follows_the_front_of_the_history(result):
 
 
 def test_jump_check_holds_a_steady_front(result):
-    lines = tool("jump_check", result).stdout.splitlines()
-    steady = [line.split() for line in lines[1:-1] if 0.5 < float(line.split()[0]) < 1.5]
+    note, more, head, *rows, median = tool("jump_check", result).stdout.splitlines()
+    assert "good for a steady front" in note and '"unsteady" rows' in more
+    assert head.split()[:2] == ["time", "(ms)"] and median.startswith("    median of steady")
+    steady = [row.split() for row in rows if 0.5 < float(row.split()[0]) < 1.5]
     assert len(steady) >= 3
     assert np.array(steady, dtype=float)[:, 2:].max() < 0.03
     assert tool("jump_check", result, "--tolerance", 1e-9).returncode == 1
+
+
+def test_jump_check_tells_rows_of_a_steady_front_from_others(result):
+    """The pulse ends at 1.53 ms, and the wave from there catches up with the front at 2.1 ms; a profile comes every 0.2 ms."""
+    *_, median = rows = tool("jump_check", result).stdout.splitlines()[3:]
+    unsteady = [float(row.split()[0]) for row in rows if row.endswith("unsteady")]
+    assert unsteady and min(unsteady) > 1.7
+    clear = np.array([row.split() for row in rows[:-1] if not row.endswith("unsteady")], dtype=float)
+    assert np.array(median.split()[3:], dtype=float) == pytest.approx(np.median(clear[:, 2:], axis=0), rel=0.06)
+
+
+def test_the_help_of_jump_check_says_what_is_good():
+    said = tool("jump_check", "--help").stdout
+    assert "What to expect" in said and "under a blast the front decays" in said
 
 
 def test_energy_table(result):
