@@ -55,9 +55,13 @@ def fraction(description: str = "", default: Any = ...) -> Any:
     return _parameter("1", description, default, gt=0.0, lt=1.0)
 
 
-def pairs(first: str, second: str, description: str = "", default: Any = ...) -> Any:
-    """A table of two columns with the units ``first`` and ``second``: a list of pairs or the name of a CSV file."""
-    return Field(default, description=description, json_schema_extra={"units": [first, second]})
+def pairs(first: str, second: str, description: str = "", default: Any = ..., advice: str = "") -> Any:
+    """A table of two columns with the units ``first`` and ``second``: a list of pairs or the name of a CSV file.
+
+    ``advice`` is what to tell a user whose first column does not rise.
+    """
+    extra = {"units": [first, second], **({"advice": advice} if advice else {})}
+    return Field(default, description=description, json_schema_extra=extra)  # type: ignore[arg-type]
 
 
 class derived(functools.cached_property):  # noqa: N801 (reads as the decorator it is)

@@ -27,6 +27,10 @@ class TableError(UnitError):
     """A table that cannot be used; the text names the file and the row."""
 
 
+class OrderError(TableError):
+    """A table whose first column does not increase."""
+
+
 def read_table(value: Any, units: tuple[str, str], folder: Path) -> Table:
     """Return the rows of ``value`` in the SI units ``units``; the first column must increase strictly.
 
@@ -59,7 +63,7 @@ def _pair(cells: Sequence[Any], units: tuple[str, str], place: str) -> tuple[flo
 def _in_order(rows: list[tuple[str, tuple[float, float]]]) -> Table:
     for (_, earlier), (place, later) in itertools.pairwise(rows):
         if not later[0] > earlier[0]:
-            raise TableError(
+            raise OrderError(
                 f"{place}: {later[0]:g} is not above {earlier[0]:g}; the first column must increase strictly"
             )
     return tuple(pair for _, pair in rows)
@@ -186,7 +190,7 @@ def _unit(cell: str, wanted: str, place: str, must_be_unit: bool) -> str:
     try:
         only_common = not (bracketed or must_be_unit)  # a mere title must not be taken for an exotic unit
         fits = parse_unit(text, only_common).dimension == parse_unit(wanted).dimension
-        problem = f"{text} is not a unit of the kind {wanted}"
+        problem = f"{text} is not a unit of {'a pure number, 1 or %' if wanted == '1' else f'the kind {wanted}'}"
     except ValueError as error:
         fits, problem = False, str(error)
     if fits:

@@ -228,10 +228,13 @@ def field_to_si(field: FieldInfo, value: Any, folder: Path) -> Any:
     if (isinstance(value, str) and value in kinds) or (value is None and type(None) in kinds):
         return value
     if "units" in extra:
-        from hydro1d.tables import read_table
+        from hydro1d.tables import OrderError, read_table
 
         first, second = extra["units"]  # type: ignore
-        return read_table(value, (str(first), str(second)), folder)
+        try:
+            return read_table(value, (str(first), str(second)), folder)
+        except OrderError as error:
+            raise OrderError(f"{error}{extra.get('advice', '')}") from None
     if "unit" in extra or float in kinds:
         if isinstance(value, str) and "unit" not in extra and any(isinstance(kind, str) for kind in kinds):
             return value  # neither a declared unit nor one of its words: the field's own validator knows

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hydro1d.fit import Efficiency, Tabulated
 
 HELP = "fit a law to a measured quasi-static curve (CSV: strain, stress)"
 
@@ -11,7 +15,14 @@ HELP = "fit a law to a measured quasi-static curve (CSV: strain, stress)"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d laws fit``."""
     parser.add_argument("curve", metavar="CURVE.csv", type=Path, help="two columns, header and units optional")
-    parser.add_argument("--law", default="epph-tangent", help="the law to fit, default epph-tangent")
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--law", default="epph-tangent", help="the law to fit, default epph-tangent")
+    what.add_argument(
+        "--table",
+        metavar="FILE.csv",
+        type=Path,
+        help='fit no law: write the curve itself, smoothed and without falls, for law = "table"',
+    )
     parser.add_argument(
         "--strain-unit", metavar="UNIT", default="", help='of the first column, "%%"; default: as in the header, else 1'
     )
@@ -28,23 +39,52 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> None:
-    """Fit; print parameters, quality and a deck fragment; draw."""
+    """Fit, or tabulate; print parameters, quality and a deck fragment; draw."""
     from hydro1d import fit, plot
 
     units = {"strain_unit": _unit(args, "strain", "1"), "stress_unit": _unit(args, "stress", "Pa")}
-    found = fit.fit_curve(args.curve, args.law, _density(args.density), args.max_strain, **units)
-    efficiency = found.efficiency
-    lines = [found.table(), "", *(f"note: {text}" for text in found.warnings())]
-    lines.append(f"rms of the residuals: {found.rms / 1e6:.4g} MPa ({100 * found.relative_rms:.3g} % as weighted)")
-    lines.append(
-        f"by energy efficiency: plateau {efficiency.plateau_stress / 1e6:.4g} MPa, "
-        f"densification strain {efficiency.densification_strain:.4g}"
-    )
-    if not efficiency.complete:
-        lines.append("  the efficiency has not fallen at the last point: the curve ends before the foam densifies")
+    density = _density(args.density)
+    found: fit.Fit | fit.Tabulated
+    if args.table is not None:
+        found = fit.tabulate(args.curve, args.max_strain, **units)
+        lines = _written(found, args.curve, args.table)
+        fragment = found.deck_fragment(args.material, str(args.table), density)
+    else:
+        found = fit.fit_curve(args.curve, args.law, density, args.max_strain, **units)
+        lines = [found.table(), "", *(f"note: {text}" for text in found.warnings())]
+        lines.append(f"rms of the residuals: {found.rms / 1e6:.4g} MPa ({100 * found.relative_rms:.3g} % as weighted)")
+        fragment = found.deck_fragment(args.material)
     figure, _ = fit.draw(found)
-    target = plot.save(figure, args.output or Path(f"{args.curve.stem}-{args.law}.png"))
-    print("\n".join([*lines, f"figure: {target}", "", found.deck_fragment(args.material)]))
+    target = plot.save(figure, args.output or Path(f"{args.curve.stem}-{found.law}.png"))
+    print("\n".join([*lines, *_efficiency(found.efficiency), f"figure: {target}", "", fragment]))
+
+
+def _written(found: Tabulated, source: Path, target: Path) -> list[str]:
+    """Write the table; what to say of it. Raises FileProblem where it would destroy the measured curve or a result."""
+    from hydro1d.cli._common import refuse_result
+    from hydro1d.errors import FileProblem
+
+    if target.exists() and target.samefile(source):
+        raise FileProblem(f"cannot write {target}: it is the measured curve; choose another name")
+    try:
+        refuse_result(target).write_text(found.csv())
+    except OSError as error:
+        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
+    return [
+        *(f"note: {text}" for text in found.notes),
+        f"table: {target}, {len(found.points)} points behind an elastic line of {found.modulus / 1e6:.5g} MPa; "
+        f"rms from the measured curve {found.rms / 1e6:.4g} MPa",
+    ]
+
+
+def _efficiency(found: Efficiency) -> list[str]:
+    lines = [
+        f"by energy efficiency: plateau {found.plateau_stress / 1e6:.4g} MPa, "
+        f"densification strain {found.densification_strain:.4g}"
+    ]
+    if not found.complete:
+        lines.append("  the efficiency has not fallen at the last point: the curve ends before the foam densifies")
+    return lines
 
 
 def _unit(args: argparse.Namespace, column: str, wanted: str) -> str:

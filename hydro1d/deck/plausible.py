@@ -55,9 +55,11 @@ class _Number(NamedTuple):
     path: Location
     value: float
     unit: str
+    of: str = ""  # what the number is of a value that is more than one
 
     def __str__(self) -> str:
-        return f"{path_text(self.path)} = {self.value:g} is {self.value:g} {self.unit}"
+        written = f"{self.of} {path_text(self.path)}" if self.of else f"{path_text(self.path)} = {self.value:g}"
+        return f"{written} is {self.value:g} {self.unit}"
 
 
 def notes_on(deck: Deck, data: Mapping[str, Any], folder: Path) -> tuple[str, ...]:
@@ -131,7 +133,7 @@ def _largest(path: Location, table: Mapping[str, Any], law: Law, folder: Path) -
         if isinstance(extra, dict) and "units" in extra and key in table:
             units = tuple(map(str, extra["units"]))  # type: ignore[arg-type]
             if not _has_unit(table[key], units, folder):
-                found.append(_Number((*path, key), max(pair[1] for pair in getattr(law, key)), units[1]))
+                found.append(_Number((*path, key), max(pair[1] for pair in getattr(law, key)), units[1], "the end of"))
     return found
 
 

@@ -9,16 +9,19 @@ from hydro1d.fit._curve import Measured, MeasuredCurve, read_curve, read_measure
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
 from hydro1d.fit._fitting import Fit, fit_curve, fittable
 from hydro1d.fit._plot import draw
+from hydro1d.fit._table import Tabulated, tabulate
 
 __all__ = [
     "Efficiency",
     "Fit",
     "Measured",
     "MeasuredCurve",
+    "Tabulated",
     "draw",
     "energy_efficiency",
     "fit_curve",
     "fittable",
     "read_curve",
     "read_measured",
+    "tabulate",
 ]

@@ -110,8 +110,9 @@ def checked(strain: np.ndarray, stress: np.ndarray, largest_strain: float = 1.0)
         )
     if strain[0] < 0.0 or strain[-1] >= 1.0:
         raise DeckError(
-            f"strains run from {strain[0]:g} to {strain[-1]:g}; they must lie between 0 and 1, compression positive "
-            "(percent needs the unit %, in the header or with --strain-unit %)"
+            f"strains run from {strain[0] + 0.0:g} to {strain[-1]:g}; they must be engineering strains between 0 and 1, "
+            "compression positive (percent needs the unit %, in the header or with --strain-unit %; logarithmic strain e is "
+            "1 − exp(−e) as an engineering strain)"
         )
     if not stress.max() > 0.0:
         raise DeckError("no stress above zero; compression must be positive")

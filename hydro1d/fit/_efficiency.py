@@ -42,7 +42,7 @@ def energy_efficiency(curve: MeasuredCurve) -> Efficiency:
     strain = np.concatenate([[0.0], curve.strain]) if curve.strain[0] > 0.0 else curve.strain
     stress = np.concatenate([[0.0], curve.stress]) if curve.strain[0] > 0.0 else curve.stress
     energy = np.concatenate([[0.0], np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(strain))])
-    smooth = _averaged(strain, stress)
+    smooth = averaged(strain, stress)
     efficiency = np.divide(energy, smooth, out=np.zeros_like(energy), where=smooth > 0.001 * stress.max())
     efficiency[strain < _TOE] = 0.0
     best = int(np.argmax(efficiency))
@@ -64,7 +64,7 @@ def _knee(strain: np.ndarray, stress: np.ndarray) -> int:
     return knee if stress[knee] - chord[knee] > _BEND * stress[-1] else 0
 
 
-def _averaged(strain: np.ndarray, stress: np.ndarray) -> np.ndarray:
+def averaged(strain: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Mean stress around each point, over as much before as behind it; of a curve of few points, the points themselves."""
     reach = np.minimum(_WINDOW, np.minimum(strain - strain[0], strain[-1] - strain)) * (1.0 + 1e-9)
     first = np.searchsorted(strain, strain - reach, side="left")

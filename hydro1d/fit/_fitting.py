@@ -81,7 +81,7 @@ class Fit:
         if self.relative_rms > _WRONG_SHAPE:
             found.append(
                 f"the law misses the curve by {100.0 * self.relative_rms:.2g} % as weighted: the curve does not have its shape. "
-                f'Another law may fit better ({", ".join(fittable())}), and law = "table" takes the curve itself'
+                f'Another law may fit better ({", ".join(fittable())}), and --table writes the curve itself for law = "table"'
             )
         return found
 
@@ -127,7 +127,10 @@ def fit_curve(
     Raises DeckError for an unknown law, a missing density or a curve that cannot be fitted, FileProblem for the file.
     """
     if law not in MODELS:
-        raise DeckError(f"no fit for the law {law[:60]!r}{suggestion(law, fittable())}; there are {', '.join(MODELS)}")
+        raise DeckError(
+            f"no fit for the law {law[:60]!r}{suggestion(law, fittable())}; there are {', '.join(MODELS)}; "
+            'hydro1d laws fit --table writes a curve for law = "table"'
+        )
     model = MODELS[law]
     if model.needs_density and density is None:
         raise DeckError(f"{law} needs the density: its hardening (Eq. 39) depends on it")

@@ -43,11 +43,15 @@ def first_slope(curve: MeasuredCurve, level: float) -> float:
     return level / max(float(curve.strain[end]), 1e-3)
 
 
-def _elastic(curve: MeasuredCurve, found: Efficiency) -> Parameter:
-    """A curve without a knee yields, for this purpose, at its plateau stress."""
+def elastic_modulus(curve: MeasuredCurve, found: Efficiency) -> float:
+    """The slope of the first loading, Pa. A curve without a knee yields, for this purpose, at its plateau stress."""
     plateau = found.plateau_stress
     yielded = float(np.interp(found.yield_strain, curve.strain, curve.stress)) if found.yield_strain > 0.0 else plateau
-    slope = first_slope(curve, min(yielded, plateau))
+    return first_slope(curve, min(yielded, plateau))
+
+
+def _elastic(curve: MeasuredCurve, found: Efficiency) -> Parameter:
+    plateau, slope = found.plateau_stress, elastic_modulus(curve, found)
     least = 1.05 * plateau / max(float(curve.strain[-1]), 0.05)
     return Parameter("modulus", "Pa", max(slope, 1.5 * least), least, 100.0 * max(slope, 1.5 * least))
 

@@ -6,11 +6,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from hydro1d.fit._fitting import Fit
+from hydro1d.fit._table import Tabulated
 from hydro1d.plot._base import GREY, PALETTE, legend, new_figure
 from hydro1d.plot._units import scale_for
 
 
-def draw(fit: Fit) -> tuple[Figure, np.ndarray]:
+def draw(fit: Fit | Tabulated) -> tuple[Figure, np.ndarray]:
     """Measured curve and fitted law, residuals, energy efficiency: a Figure with Axes (3,)."""
     figure, axes = new_figure(3, 1, (7.2, 8.4), sharex=True)
     upper, middle, lower = axes[:, 0]

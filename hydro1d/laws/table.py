@@ -8,6 +8,8 @@ from pydantic import model_validator
 from hydro1d.laws.base import Foam
 from hydro1d.parameters import derived, pairs, positive
 
+_ADVICE = "hydro1d laws fit CURVE.csv --table FILE.csv makes such a curve of a measured one with unloading and noise"
+
 
 class Table(Foam):
     """σ(ε) through the points of a measured quasi-static curve, after an elastic line of slope E.
@@ -17,7 +19,9 @@ class Table(Foam):
     """
 
     modulus: float = positive("Pa", "elastic modulus E")
-    curve: tuple[tuple[float, float], ...] = pairs("1", "Pa", "strain and stress, strain rising, stress not falling")
+    curve: tuple[tuple[float, float], ...] = pairs(
+        "1", "Pa", "strain and stress, strain rising, stress not falling", advice=f"; {_ADVICE}"
+    )
 
     @model_validator(mode="after")
     def _check_curve(self) -> Table:
@@ -27,14 +31,15 @@ class Table(Foam):
         first, last = points[0, 0], points[-1, 0]
         if not ((np.diff(points[:, 0]) > 0).all() and first >= 0.0 and last < 1.0):
             raise ValueError(
-                f"curve must have strains rising from 0 or above to below 1, not from {first:g} to {last:g}"
+                f"curve must have strains rising from 0 or above to below 1, not from {first:g} to {last:g} "
+                "(percent needs the unit %)"
             )
         falls = np.flatnonzero(np.diff(points[:, 1]) < 0.0)
         if len(falls):
             (strain, high), (_, low) = points[falls[0]], points[falls[0] + 1]
             raise ValueError(
                 f"curve must have stresses that do not fall; behind strain {strain:g} they fall from {high:g} to {low:g} Pa, "
-                f"the first of {len(falls)} falls; smooth a measured curve, or fit a law to it with hydro1d laws fit"
+                f"the first of {len(falls)} falls; {_ADVICE}"
             )
         if not (points[0, 1] >= 0.0 and points[-1, 1] > 0.0):
             raise ValueError("curve must have stresses from 0 or above to above 0")

@@ -52,7 +52,7 @@ def test_decks_to_start_from_are_plausible(case, tmp_path, monkeypatch):
     ("material.foam.modulus=22e6", ""),
     ('material.foam={law="eph",density=50,modulus=70,yield_stress=0.8,hardening_modulus=1}',
      "material.foam.modulus = 70 is 70 Pa, material.foam.yield_stress = 0.8 is 0.8 Pa"),
-    ("material.foam.curve=[[0.04, 820], [0.65, 900]]", "material.foam.curve = 900 is 900 Pa"),
+    ("material.foam.curve=[[0.04, 820], [0.65, 900]]", "the end of material.foam.curve is 900 Pa"),
     ("material.foam.density=0.0516", '"0.0516 g/cm^3"'),
     ("material.foam.density=51600", '"51600 g/m^3"'),
     ("layer[0].thickness=500", '"500 mm"'),
@@ -91,7 +91,7 @@ def test_a_curve_file_without_a_unit_that_looks_like_mpa_is_noted(tmp_path, head
     modulus = "'22 MPa'" if not noted else "100"
     deck = load_deck(FOAM, ["material.foam.curve=curve.csv", f"material.foam.modulus={modulus}"], folder=tmp_path)
     assert bool(deck.notes) == noted
-    assert not noted or "material.foam.curve = 5 is 5 Pa" in deck.notes[0]
+    assert not noted or "the end of material.foam.curve is 5 Pa" in deck.notes[0]
 
 
 def test_many_are_told_in_one_line():

@@ -8,6 +8,7 @@ import pytest
 from hydro1d import analytic, fit, load_deck
 from hydro1d.cli import main
 from hydro1d.errors import DeckError, FileProblem
+from hydro1d.laws.table import Table
 
 TRUE = {"modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689, "beta": 1.22, "gamma": 0.603}
 TANGENT = analytic.TangentEPPH(51.6, *TRUE.values())
@@ -239,3 +240,98 @@ def test_laws_plot(tmp_path, monkeypatch, capsys):
     assert main(["laws", "plot", "blast.toml", "--dpi", "40"]) == 0  # an elastic plate
     assert main(["laws", "plot", "blast.toml", "--material", "jelly"]) == 2
     assert "plate, soft, stiff" in capsys.readouterr().err
+
+
+def noisy_with_tail(points=400, noise=0.02, seed=5):
+    """A rising plateau with scatter, and an unloading at the end: strain, stress in Pa."""
+    curve = rising(points, noise, yielded=0.8e6, rise=0.4e6, seed=seed)
+    strain = np.concatenate([curve.strain, np.linspace(0.9, 0.85, 20)[1:]])
+    return fit.MeasuredCurve(strain, np.concatenate([curve.stress, np.linspace(curve.stress[-1], 0.0, 20)[1:]]))
+
+
+@pytest.mark.parametrize(
+    "points, noise, peak", [(12, 0.0, 0.0), (30, 0.03, 0.0), (300, 0.0, 0.5e6), (300, 0.05, 0.0), (3000, 0.03, 0.5e6)]
+)
+def test_a_measured_curve_becomes_a_table_that_the_law_takes(points, noise, peak):
+    curve = rising(points, noise, yielded=0.8e6, rise=0.4e6, peak=peak)
+    exact = rising(points, 0.0, yielded=0.8e6, rise=0.4e6, peak=peak)
+    found = fit.tabulate(curve)
+    law = Table(density=50.0, modulus=found.modulus, curve=tuple(map(tuple, found.points.tolist())))
+    assert len(found.points) <= min(points, 100)
+    for strain in np.linspace(0.001, 0.89, 50):
+        assert law.loading(strain)[0] == pytest.approx(float(found.stress(strain)), rel=1e-9)
+    # A table has no falls: over a peak and its flank it is a level between them. Elsewhere it is the curve without noise.
+    beyond = curve.strain > 0.15
+    off = np.abs(found.stress(exact.strain) - exact.stress)[beyond] / np.hypot(0.9e6, exact.stress)[beyond]
+    assert np.sqrt(np.mean(off**2)) < 0.01 + 0.5 * noise
+    # What the noise of a few points makes of a slope is no matter of the method.
+    assert noise > 0.0 or points < 100 or found.modulus == pytest.approx(22e6, rel=0.02)
+
+
+def test_the_energy_of_a_peak_is_kept_in_a_table():
+    curve = rising(300, 0.0, yielded=0.8e6, rise=0.1e6, peak=0.5e6)
+    table, before = fit.tabulate(curve), curve.strain <= 0.4
+    energies = [
+        np.trapezoid(stress[before], curve.strain[before]) for stress in (table.stress(curve.strain), curve.stress)
+    ]
+    assert energies[0] == pytest.approx(energies[1], rel=0.02)
+
+
+def test_a_table_on_the_command_line(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    written(tmp_path / "raw.csv", noisy_with_tail(), "strain [%],stress [MPa]", scale=(100.0, 1e-6))
+    assert main(["laws", "fit", "raw.csv", "--table", "foam.csv", "--density", "50"]) == 0
+    out = capsys.readouterr().out
+    assert (
+        "note: left out: 19 of 418 points" in out
+        and "table: foam.csv, " in out
+        and (tmp_path / "raw-table.png").exists()
+    )
+    fragment = out[out.index("[material.foam]") :]
+    column = '[[layer]]\nmaterial = "foam"\nthickness = 1\nzones = 10\n'
+    rest = f'\n{column}[left]\ntype = "free"\n[right]\ntype = "wall"\n[time]\nend = 1e-3\n'
+    deck = load_deck(fragment + rest, folder=tmp_path)
+    assert deck.layers[0].law.curve[-1][1] > 10e6 and deck.notes == ()
+    raw = fragment.replace("foam.csv", "raw.csv")
+    with pytest.raises(
+        DeckError, match=r"must increase strictly; hydro1d laws fit CURVE\.csv --table FILE\.csv makes such a curve"
+    ):
+        load_deck(raw + rest, folder=tmp_path)
+
+
+@pytest.mark.parametrize("target, code, says", [
+    ("raw.csv", 4, "it is the measured curve"),
+    ("/nowhere/at/all.csv", 4, "No such file"),
+    ("result.h5", 4, "a result"),
+])  # fmt: skip
+def test_a_table_destroys_nothing(tmp_path, monkeypatch, capsys, target, code, says):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "result.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    before = written(tmp_path / "raw.csv", rising(100), "strain,stress [MPa]").read_bytes()
+    assert main(["laws", "fit", "raw.csv", "--table", target]) == code
+    assert says in capsys.readouterr().err
+    assert (tmp_path / "raw.csv").read_bytes() == before
+
+
+def test_a_curve_that_makes_no_table_says_why():
+    strain = np.linspace(0.01, 0.8, 50)
+    with pytest.raises(DeckError, match="no table can be made of this curve: "):
+        fit.tabulate(fit.MeasuredCurve(strain, 1e6 - 1e7 * strain))  # mostly tension
+    with pytest.raises(DeckError, match="no stress above zero"):
+        fit.tabulate(fit.MeasuredCurve(strain, -strain))
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 2.0])
+def test_a_curve_without_a_plateau_becomes_a_table_too(exponent):
+    strain = np.linspace(0.0, 0.9, 200)
+    stress = 1e6 * strain**exponent
+    found = fit.tabulate(fit.MeasuredCurve(strain, stress))
+    assert np.abs(found.stress(strain) - stress)[45:].max() < 0.02e6  # behind the elastic line
+
+
+def test_a_table_of_a_curve_without_its_elastic_part_says_so():
+    curve = rising(300)
+    beyond = curve.strain > 0.05
+    assert not any("elastic" in note for note in fit.tabulate(curve).notes)
+    (note,) = fit.tabulate(fit.MeasuredCurve(curve.strain[beyond], curve.stress[beyond])).notes
+    assert "hardly a point on its elastic line" in note
