@@ -83,6 +83,7 @@ def initial_state(column: Column, program: Program) -> State:
         velocity=np.zeros(zones + 3),
         displacement=np.zeros(zones + 1),
         energy=np.zeros(zones),
+        gained=np.zeros(zones),
         force=np.zeros(zones),
         viscosity=np.zeros(zones),
         material=np.zeros((variables, zones)),
@@ -125,8 +126,8 @@ def _first_step(column: Column, program: Program, state: State) -> None:
     stable = math.inf
     for layer, slab in enumerate(column.slabs):
         out = program.sweep_layer(state, layer, slab.zones, state.force)
-        speed = out[zone_places.VISCOUS_SPEED]
-        stable = min(stable, slab.size / (math.sqrt(out[zone_places.STIFFNESS] + speed**2) + speed))
+        fastest = march.fastest(state.numbers[layer], out[zone_places.STIFFNESS], out[zone_places.VISCOUS_SPEED])
+        stable = min(stable, slab.size / fastest)
         state.ledger[layout.PEAK_STRESS] = max(state.ledger[layout.PEAK_STRESS], out[zone_places.STRESS])
     state.ledger[layout.CFL] = column.cfl
     state.ledger[layout.NEXT_STEP] = state.ledger[layout.FIRST_STEP] = column.cfl * stable
@@ -287,7 +288,7 @@ class _Run:
         state = self.state
         strain = -np.diff(state.displacement) / np.diff(self.column.node_coordinate)
         self.sink.profile(frame(self.column, self.program, state))
-        bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.energy)
+        bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.gained)
         zone = int(np.argmax(bad)) if bad.any() else int(np.argmax(strain))
         cause = {
             layout.INVERTED: f"the zone is inverted: its strain reached {strain[zone]:.6g}",
@@ -309,8 +310,7 @@ def frame(column: Column, program: Program, state: State) -> Frame:
         nodes = state.displacement[slab.first : slab.first + slab.zones + 1]
         strain[slab.part] = (nodes[:-1] - nodes[1:]) / slab.size
     jump = velocity[:-1] - velocity[1:] + centred[:-1] - centred[1:]
-    energy = state.energy + 0.5 * half * state.force * jump / column.zone_mass
-    scratch.energy[:] = energy
+    scratch.gained += 0.5 * half * state.force * jump / column.zone_mass
     stress = program.stress(scratch)
     fields = {
         "position": column.node_coordinate + state.displacement,
@@ -320,7 +320,7 @@ def frame(column: Column, program: Program, state: State) -> Frame:
         "stress": stress,
         "viscosity": state.force - stress,
         "density": np.concatenate([np.full(s.zones, s.law.density) for s in column.slabs]) / (1.0 - strain),
-        "internal_energy": energy,
+        "internal_energy": scratch.energy + scratch.gained,
         "largest_strain": state.material[0].copy(),
     }
     for name in [variable.name for variable in column.zone_history[1:]]:

@@ -15,7 +15,8 @@ class State:
     """All that changes with time.
 
     ledger: clock, sums and maxima, see `kernels.layout`. velocity (zones + 3,) at half a step before the next kick, with a
-    ghost at each end; displacement (zones + 1,); energy (zones,) specific; force (zones,) σ + q; viscosity (zones,) q;
+    ghost at each end; displacement (zones + 1,); energy (zones,) specific, at the last settling, and
+    gained (zones,) since then; force (zones,) σ + q; viscosity (zones,) q;
     material (1 + history variables, zones), the largest strain first; memory (2, ·) of the boundaries; numbers (layers, ·),
     whose running maxima count.
     """
@@ -24,6 +25,7 @@ class State:
     velocity: np.ndarray
     displacement: np.ndarray
     energy: np.ndarray
+    gained: np.ndarray
     force: np.ndarray
     viscosity: np.ndarray
     material: np.ndarray
@@ -32,7 +34,7 @@ class State:
 
     def __post_init__(self) -> None:
         # The node pass goes through displacements and velocities in whole cache lines from node 1 on.
-        starts = {"velocity": 2, "displacement": 1, "energy": 0, "force": 0, "material": 0, "viscosity": 0}
+        starts = {"velocity": 2, "displacement": 1, "gained": 0, "force": 0, "material": 0, "viscosity": 0, "energy": 0}
         for place, (name, first) in enumerate(starts.items()):
             setattr(self, name, placed(getattr(self, name), place, first))
 

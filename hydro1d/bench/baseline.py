@@ -54,7 +54,7 @@ class Baseline:
         linear, smooth_linear, quadratic = self.column.viscosity.coefficients()
         jump = velocity[:-1] - velocity[1:]
         strain = (s.displacement[:-1] - s.displacement[1:]) / size
-        s.energy += 0.5 * kick * s.force * (before[:-1] - before[1:] + jump) / (size * law.density)
+        s.gained += 0.5 * kick * s.force * (before[:-1] - before[1:] + jump) / (size * law.density)
         top = s.material[0] = np.maximum(s.material[0], strain)
         over = np.maximum(top - law.densification_strain, 0.0)
         inverse = 1.0 / (over + law.densification_strain - law.yield_strain)

@@ -114,6 +114,7 @@ def refined(state: State, parts: int) -> State:
             "velocity": np.concatenate([velocity[1:2], velocity, velocity[-2:-1]]),
             "displacement": np.interp(fine, nodes, state.displacement),
             "energy": np.repeat(state.energy, parts),
+            "gained": np.repeat(state.gained, parts),
             "force": np.repeat(state.force, parts),
             "viscosity": np.repeat(state.viscosity, parts),
             "material": np.repeat(state.material, parts, axis=1),

@@ -74,7 +74,7 @@ def build() -> Any:
                 raise NoReference(f"{command} failed: {done.stderr.strip().splitlines()[-1:]}")
         loaded = ctypes.CDLL(str(library))
     pointer = ctypes.c_void_p
-    loaded.march.argtypes = [pointer, pointer, *[ctypes.c_int64] * 3, *[pointer] * 8]
+    loaded.march.argtypes = [pointer, pointer, *[ctypes.c_int64] * 3, *[pointer] * 9]
     loaded.march.restype = None
     return loaded
 
@@ -128,7 +128,7 @@ class Reference:
             viscous_work=old[layout.VISCOUS_WORK], top_stress=old[layout.PEAK_STRESS], top_left=old[layout.PEAK_LEFT],
             top_right=old[layout.PEAK_RIGHT], top_strain=0.0, **pulse,
         )  # fmt: skip
-        arrays = (state.velocity, self.room, state.displacement, state.energy, state.force, state.material,
+        arrays = (state.velocity, self.room, state.displacement, state.energy, state.gained, state.force, state.material,
                   column.node_mass, self.program.inverse_mass)  # fmt: skip
         self.library.march(
             ctypes.byref(ledger), ctypes.byref(self.layers), len(self.layers), column.zones, steps,
@@ -142,7 +142,9 @@ class Reference:
 def difference(one: State, other: State) -> float:
     """Largest difference of two states, relative to the largest value of each quantity."""
     worst = abs(one.time - other.time) / other.time
-    for name in ("velocity", "displacement", "energy", "force"):
+    energies = [state.energy + state.gained for state in (one, other)]
+    worst = max(worst, float(np.abs(energies[0] - energies[1]).max() / np.abs(energies[1]).max()))
+    for name in ("velocity", "displacement", "force"):
         a, b = getattr(one, name), getattr(other, name)
         worst = max(worst, float(np.abs(a - b).max() / np.abs(b).max()))
     return max(worst, float(np.abs(one.material[0] - other.material[0]).max() / np.abs(other.material[0]).max()))

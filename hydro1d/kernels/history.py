@@ -126,7 +126,7 @@ def sum_zones(a: Arrays) -> tuple[float, float]:
         crushed = crushed_strain(numbers)
         energy, count = 0.0, 0.0
         for i in range(first, first + zones):
-            energy = accumulate(energy, a.energy[i])
+            energy = accumulate(energy, a.energy[i] + a.gained[i])
             count = accumulate(count, 0.0 if a.state[i] > crushed else 1.0)
         stored += energy * numbers[ZONE_MASS]
         if crushed < math.inf:
@@ -139,13 +139,13 @@ def look(a: Arrays, probe: int, velocity: Any, centred: Any, half: float, seen: 
     """Position, velocity, strain and stress at a probe."""
     zone, layer, share = a.probes[1 + 2 * probe], a.probes[2 + 2 * probe], a.probe_weights[probe]
     numbers = offset(a.numbers, layer * NUMBERS)
-    stress, energy = offset(a.out, SCRATCH), offset(a.out, SCRATCH + 1)
+    stress, gained = offset(a.out, SCRATCH), offset(a.out, SCRATCH + 1)
     jump = velocity[zone + 1] - velocity[zone + 2] + centred[zone + 1] - centred[zone + 2]
-    energy[0] = a.energy[zone] + 0.5 * half * a.force[zone] * jump / numbers[ZONE_MASS]
+    gained[0] = a.gained[zone] + 0.5 * half * a.force[zone] * jump / numbers[ZONE_MASS]
     call(
         a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(velocity, zone),
-        offset(velocity, zone), offset(a.displacement, zone), energy, stress, a.out, offset(a.state, zone), a.out, a.out,
-        a.out, a.out, -1, a.zones, a.out,
+        offset(velocity, zone), offset(a.displacement, zone), offset(a.energy, zone), gained, stress,
+        a.out, offset(a.state, zone), a.out, a.out, a.out, a.out, -1, a.zones, a.out,
     )  # fmt: skip
     moved = (1.0 - share) * a.displacement[zone] + share * a.displacement[zone + 1]
     seen[0] = (1.0 - share) * a.coordinate[zone] + share * a.coordinate[zone + 1] + moved

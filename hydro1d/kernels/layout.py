@@ -14,7 +14,8 @@ PEAK_STRESS, PEAK_LEFT, PEAK_RIGHT, FIRST_ENERGY = range(9, 13)
 LEFT_FRONT, RIGHT_FRONT, FIRST_STEP, PACE_TIME = range(13, 17)
 STOP, STEPS, CADENCE, ROW_AT_STOP, CFL = range(17, 22)
 STATUS, ROWS, LIMITING_LAYER = range(22, 25)
-LEDGER = 25
+WORK_LOST, IMPULSE_LOST = range(25, 27)  # what rounding took off their sums
+LEDGER = 27
 
 # What a call answers as its status
 REACHED, PAUSED, NOT_FINITE, INVERTED, COLLAPSED = range(5)
@@ -35,8 +36,9 @@ class Arrays(NamedTuple):
     """What the time loop works on.
 
     Over nodes: displacement, mass, inverse_mass, coordinate; velocity and spare, with a ghost at each end, so node i stands
-    at i + 1. Over zones: energy, force (σ + q), viscosity (q), state (largest strain, then the laws' history,
-    `zones` apart), and what `zones.foam_kernel` remembers. rows and probe_rows: history as it is recorded.
+    at i + 1. Over zones: energy (specific, at the last settling), gained (since then), force (σ + q), viscosity (q), state
+    (largest strain, then the laws' history, `zones` apart), and what `zones.foam_kernel` remembers. rows and probe_rows:
+    history as it is recorded.
     """
 
     ledger: Any
@@ -51,6 +53,7 @@ class Arrays(NamedTuple):
     spare: Any
     displacement: Any
     energy: Any
+    gained: Any
     force: Any
     viscosity: Any
     state: Any
@@ -70,4 +73,4 @@ class Arrays(NamedTuple):
     columns: int
 
 
-SIGNATURE = "pqq" + 20 * "p" + "qpp" + "iii"  # of `Arrays`; p: pointer to double, q: to integers, i: integer
+SIGNATURE = "pqq" + 21 * "p" + "qpp" + "iii"  # of `Arrays`; p: pointer to double, q: to integers, i: integer

@@ -22,6 +22,7 @@ from hydro1d.kernels.layout import (
     FIRST_ZONE,
     FREE_STEP,
     IMPULSE,
+    IMPULSE_LOST,
     INVERTED,
     LARGEST_INPUT,
     LAST_STEP,
@@ -47,6 +48,7 @@ from hydro1d.kernels.layout import (
     TOP_STRAIN,
     VISCOUS_WORK,
     WORK,
+    WORK_LOST,
     ZONES,
     Arrays,
 )
@@ -54,6 +56,7 @@ from hydro1d.kernels.memory import LINE
 from hydro1d.kernels.primitives import call, offset
 
 BLOCK = 512  # zones whose arrays stay in the first-level cache between the node pass and the zone pass
+SETTLING = 1024  # cycles; in multiples from the first, so that nothing depends on where calls end
 GROWTH = 1.1  # most by which a step exceeds the one before
 LOOK = 100_000  # cycles between looks at the pace
 # Of the first step, on the mean between two looks. A zone that is crushed to next to nothing keeps its stiffness, and the
@@ -64,14 +67,14 @@ SMALLEST = 1e-12  # of the first step: a mass-spring chain may bounce at 1e-10 o
 
 def march(
     ledger: Any, layers: Any, addresses: Any, parameters: Any, numbers: Any, end_numbers: Any, memory: Any, out: Any,
-    velocity: Any, spare: Any, displacement: Any, energy: Any, force: Any, viscosity: Any, state: Any, curve: Any,
-    tangents: Any, stiffnesses: Any, speeds: Any, mass: Any, inverse_mass: Any, coordinate: Any, rows: Any, probes: Any,
-    probe_weights: Any, probe_rows: Any, layer_count: int, zones: int, columns: int,
+    velocity: Any, spare: Any, displacement: Any, energy: Any, gained: Any, force: Any, viscosity: Any, state: Any,
+    curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, mass: Any, inverse_mass: Any, coordinate: Any, rows: Any,
+    probes: Any, probe_weights: Any, probe_rows: Any, layer_count: int, zones: int, columns: int,
 ) -> None:  # fmt: skip
     """Step until the ledger's stop time, its number of steps, full rows, or a breakdown. The arguments are `Arrays`."""
     a = Arrays(
         ledger, layers, addresses, parameters, numbers, end_numbers, memory, out, velocity, spare, displacement, energy,
-        force, viscosity, state, curve, tangents, stiffnesses, speeds, mass, inverse_mass, coordinate, rows, probes,
+        gained, force, viscosity, state, curve, tangents, stiffnesses, speeds, mass, inverse_mass, coordinate, rows, probes,
         probe_weights, probe_rows, layer_count, zones, columns,
     )  # fmt: skip
     steps, cadence, capacity = int(ledger[STEPS]), int(ledger[CADENCE]), int(ledger[ROWS])
@@ -82,6 +85,8 @@ def march(
         status = take_step(a, before, after, taken == 0)
         before, after = after, before
         taken += 1
+        if int(ledger[CYCLE]) % SETTLING == 0:
+            settle(a)
         if cadence > 0 and int(ledger[CYCLE]) % cadence == 0 and status <= PAUSED:
             record(a, before, after, recorded)
             recorded += 1
@@ -130,9 +135,20 @@ def kick_ends(a: Arrays, before: Any, after: Any, kick: float, step: float) -> N
         push_end(a, side, before, offset(a.memory, side * MEMORY), step)
         velocity, pushed = a.out[VELOCITY], a.out[FORCE]
         after[node + 1] = sign * velocity
-        ledger[WORK] += pushed * 0.5 * (sign * before[node + 1] + velocity) * kick
-        ledger[IMPULSE] += sign * pushed * kick
+        add(ledger, WORK, WORK_LOST, pushed * 0.5 * (sign * before[node + 1] + velocity) * kick)
+        add(ledger, IMPULSE, IMPULSE_LOST, sign * pushed * kick)
     ledger[LARGEST_INPUT] = max(ledger[LARGEST_INPUT], ledger[WORK])
+
+
+def add(ledger: Any, place: int, lost: int, amount: float) -> None:
+    """Add to a sum of the ledger; what rounding takes off goes into the next addition (Kahan 1965).
+
+    A steady load on a steady step adds the same number each time, and rounding then errs to the same side.
+    """
+    amount += ledger[lost]
+    total = ledger[place] + amount
+    ledger[lost] = amount - (total - ledger[place])
+    ledger[place] = total
 
 
 def sweep(a: Arrays, before: Any, after: Any, kick: float, step: float) -> tuple[float, float, int]:
@@ -162,10 +178,22 @@ def sweep(a: Arrays, before: Any, after: Any, kick: float, step: float) -> tuple
             strain = max(strain, out[zone_places.STRAIN])
             ledger[PEAK_STRESS] = max(ledger[PEAK_STRESS], out[zone_places.STRESS])
             ledger[VISCOUS_WORK] += 0.5 * out[zone_places.VISCOUS_POWER] * kick
-        size = numbers[SIZE] / (math.sqrt(stiffness + speed * speed) + speed)
-        if stable == stable and not size >= stable:
-            stable, limiting = size, layer
+        bound = numbers[SIZE] / fastest(numbers, stiffness, speed)
+        if stable == stable and not bound >= stable:
+            stable, limiting = bound, layer
     return stable, strain, limiting
+
+
+def fastest(numbers: Any, stiffness: float, speed: float) -> float:
+    """The speed that a layer's step must resolve, of its waves (stiffness/ρ0) and of its viscosity or closing zones.
+
+    Without viscosity the faster of both, and not their sum: a step that follows the motion pumps the shortest waves of a
+    mass–spring chain, from which nothing takes energy.
+    """
+    if numbers[zone_places.LINEAR] + numbers[zone_places.SMOOTH_LINEAR] + numbers[zone_places.QUADRATIC] > 0.0:
+        return math.sqrt(stiffness + speed * speed) + speed
+    waves, closing = math.sqrt(stiffness), 2.0 * speed
+    return closing if closing > waves else waves  # a NaN among the waves stays
 
 
 def kick_nodes(a: Arrays, before: Any, after: Any, node: int, end: int, kick: float, step: float) -> int:
@@ -186,10 +214,21 @@ def push_zones(a: Arrays, layer: int, numbers: Any, before: Any, after: Any, sta
     """Call a layer's zone kernel on some of its zones."""
     call(
         a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(after, start),
-        offset(before, start), offset(a.displacement, start), offset(a.energy, start), offset(a.force, start),
-        offset(a.viscosity, start), offset(a.state, start), offset(a.curve, start), offset(a.tangents, start),
-        offset(a.stiffnesses, start), offset(a.speeds, start), end - start, a.zones, a.out,
+        offset(before, start), offset(a.displacement, start), offset(a.energy, start), offset(a.gained, start),
+        offset(a.force, start), offset(a.viscosity, start), offset(a.state, start), offset(a.curve, start),
+        offset(a.tangents, start), offset(a.stiffnesses, start), offset(a.speeds, start), end - start, a.zones, a.out,
     )  # fmt: skip
+
+
+def settle(a: Arrays) -> None:
+    """Add what zones have gained to their energy, and leave in it what rounding takes off.
+
+    A zone that is crushed hard and then gains next to nothing in each of a million steps would lose all of that.
+    """
+    for i in range(a.zones):
+        total = a.energy[i] + a.gained[i]
+        a.gained[i] -= total - a.energy[i]
+        a.energy[i] = total
 
 
 def close_step(a: Arrays, step: float, stable: float, strain: float, layer: int) -> int:

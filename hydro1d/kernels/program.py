@@ -79,9 +79,9 @@ class Program:
         ledger[layout.ROW_AT_STOP], ledger[layout.ROWS] = row_at_stop, self.row_capacity
         arrays = (
             ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
-            state.velocity, self.spare, state.displacement, state.energy, state.force, state.viscosity, state.material,
-            self.curve, self.tangents, self.stiffnesses, self.speeds, self.column.node_mass, self.inverse_mass,
-            self.column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
+            state.velocity, self.spare, state.displacement, state.energy, state.gained, state.force, state.viscosity,
+            state.material, self.curve, self.tangents, self.stiffnesses, self.speeds, self.column.node_mass,
+            self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
         )  # fmt: skip
         self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
         return int(ledger[layout.STATUS])
@@ -105,7 +105,7 @@ class Program:
         state.numbers[layer, zone_places.AFRESH] = 1.0
         arrays = (
             self.parameters[self.layers[layer, layout.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
-            state.velocity[first:], state.displacement[first:], state.energy[first:], force[first:],
+            state.velocity[first:], state.displacement[first:], state.energy[first:], state.gained[first:], force[first:],
             state.viscosity[first:], state.material.reshape(-1)[first:], self.curve[first:], self.tangents[first:],
             self.stiffnesses[first:], self.speeds[first:],
         )  # fmt: skip

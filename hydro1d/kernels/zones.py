@@ -12,7 +12,7 @@ from typing import Any
 from hydro1d.kernels.primitives import accumulate, gather, larger, scatter
 
 # p: pointer to double, i: integer
-SIGNATURE = "pppppppppppppiip"
+SIGNATURE = "ppppppppppppppiip"
 
 # Places in `numbers`, the scalars of a call ...
 STEP, KICK, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, SMOOTH_LINEAR, QUADRATIC = range(8)
@@ -29,11 +29,11 @@ SHORT = 256  # zones; in a column no longer than this the front is a large share
 
 _DOC = """Advance ``zones`` zones over a step.
 
-velocity, velocity_before (node i at i + 1; at n + ½ and n − ½) and displacement (new) are over nodes; energy (specific) and
-force (σ + q) and viscosity (q) over zones; state holds the largest strain and then the law's history, each `stride` long.
-curve, tangents, stiffnesses and speeds are what `foam_kernel` remembers: stress and tangent of the loading curve, stiffness,
-speed of the linear viscosity. The number of zones is negative to observe: `force` becomes the stress alone, nothing else
-changes. A NaN anywhere comes back as the stiffness.
+velocity, velocity_before (node i at i + 1; at n + ½ and n − ½) and displacement (new) are over nodes; energy (specific, at
+the last settling), gained (since then), force (σ + q) and viscosity (q) over zones; state holds the largest strain and then
+the law's history, each `stride` long. curve, tangents, stiffnesses and speeds are what `foam_kernel` remembers: stress and
+tangent of the loading curve, stiffness, speed of the linear viscosity. The number of zones is negative to observe: `force`
+becomes the stress alone, nothing else changes. A NaN anywhere comes back as the stiffness.
 """
 
 
@@ -41,13 +41,13 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
     """The kernel of the law that ``unpack`` builds from its parameters; the law has one history variable an entry."""
 
     def sweep(
-        parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
-        viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
-        out: Any,
+        parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, gained: Any,
+        force: Any, viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int,
+        stride: int, out: Any,
     ) -> None:  # fmt: skip
         law = unpack(parameters)
         if zones < 0:
-            observe(law, history_count, numbers, velocity, displacement, energy, force, state, -zones, stride)
+            observe(law, history_count, numbers, velocity, displacement, energy, gained, force, state, -zones, stride)
             return
         per_size, per_density, density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY], numbers[DENSITY]
         linear, smooth_linear, quadratic = numbers[LINEAR], numbers[SMOOTH_LINEAR], numbers[QUADRATIC]
@@ -58,10 +58,9 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             strain = (displacement[i] - displacement[i + 1]) * per_size
             largest = max(state[i], strain)
             jump_before = velocity_before[i + 1] - velocity_before[i + 2]
-            gained = energy[i] + force[i] * to_kick * (jump_before + jump)
-            energy[i] = gained
+            gained[i] += force[i] * to_kick * (jump_before + jump)
             power = accumulate(power, viscosity[i] * (jump_before + jump))
-            now = gained + force[i] * to_strain * jump
+            now = energy[i] + (gained[i] + force[i] * to_strain * jump)
             history = gather(state, stride + i, stride, history_count)
             stress, tangent, stiffness, smooth, history = law.point(strain, largest, jump * per_size, now, history)
             closing = max(jump, 0.0) - (shared_jump(velocity, i, jump) if smooth else 0.0)
@@ -91,13 +90,13 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
     """
 
     def sweep(
-        parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
-        viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int, stride: int,
-        out: Any,
+        parameters: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, gained: Any,
+        force: Any, viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, zones: int,
+        stride: int, out: Any,
     ) -> None:  # fmt: skip
         law = unpack(parameters)
         if zones < 0:
-            observe(law, history_count, numbers, velocity, displacement, energy, force, state, -zones, stride)
+            observe(law, history_count, numbers, velocity, displacement, energy, gained, force, state, -zones, stride)
             return
         per_size, per_density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY]
         top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -118,7 +117,7 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
                     # No zone's stress is ever above its loading curve, nor its strain above its largest.
                     top_stress = larger(top_stress, curve[i])
                     top_strain = larger(top_strain, state[i])
-            stiffness, speed, work = push(law, numbers, velocity, velocity_before, displacement, energy, force,
+            stiffness, speed, work = push(law, numbers, velocity, velocity_before, displacement, gained, force,
                                           viscosity, state, curve, tangents, stiffnesses, speeds, start, end,
                                           smooth, turned)  # fmt: skip
             top_stiffness, top_speed, power = larger(top_stiffness, stiffness), larger(top_speed, speed), power + work
@@ -129,7 +128,7 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
 
 
 def push(
-    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
+    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, gained: Any, force: Any,
     viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int,
     smooth: int, turned: int,
 ) -> tuple[float, float, float]:  # fmt: skip
@@ -138,20 +137,20 @@ def push(
     Four calls with constants make four loops; with the flags as variables LLVM makes one, a third slower.
     """
     if smooth != 0 and turned != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+        return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
                           tangents, stiffnesses, speeds, start, end, True, True)  # fmt: skip
     if smooth != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+        return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
                           tangents, stiffnesses, speeds, start, end, True, False)  # fmt: skip
     if turned != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+        return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
                           tangents, stiffnesses, speeds, start, end, False, True)  # fmt: skip
-    return push_zones(law, numbers, velocity, velocity_before, displacement, energy, force, viscosity, state, curve,
+    return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
                           tangents, stiffnesses, speeds, start, end, False, False)  # fmt: skip
 
 
 def push_zones(
-    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, energy: Any, force: Any,
+    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, gained: Any, force: Any,
     viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int,
     limited: bool, turned: bool,
 ) -> tuple[float, float, float]:  # fmt: skip
@@ -171,7 +170,7 @@ def push_zones(
             stiffnesses[i] = law.slope_below(state[i], tangents[i])
         jump = velocity[i + 1] - velocity[i + 2]
         jump_before = velocity_before[i + 1] - velocity_before[i + 2]
-        energy[i] += force[i] * to_kick * (jump_before + jump)
+        gained[i] += force[i] * to_kick * (jump_before + jump)
         power = accumulate(power, viscosity[i] * (jump_before + jump))
         strain = (displacement[i] - displacement[i + 1]) * per_size
         stress = law.stress_below(state[i] - strain, curve[i], stiffnesses[i])
@@ -219,8 +218,8 @@ def answer(out: Any, stiffness: float, speed: float, stress: float, strain: floa
 
 
 def observe(
-    law: Any, history_count: Any, numbers: Any, velocity: Any, displacement: Any, energy: Any, stresses: Any, state: Any,
-    zones: int, stride: int,
+    law: Any, history_count: Any, numbers: Any, velocity: Any, displacement: Any, energy: Any, gained: Any, stresses: Any,
+    state: Any, zones: int, stride: int,
 ) -> None:  # fmt: skip
     """The stress alone of each zone as it stands."""
     per_size = numbers[INVERSE_SIZE]
@@ -228,5 +227,5 @@ def observe(
         strain = (displacement[i] - displacement[i + 1]) * per_size
         rate = (velocity[i + 1] - velocity[i + 2]) * per_size
         history = gather(state, stride + i, stride, history_count)
-        stress, _, _, _, _ = law.point(strain, max(state[i], strain), rate, energy[i], history)
+        stress, _, _, _, _ = law.point(strain, max(state[i], strain), rate, energy[i] + gained[i], history)
         stresses[i] = stress

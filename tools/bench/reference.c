@@ -69,8 +69,9 @@ INLINE void loading(const int64_t law, const Layer *m, double strain, double *st
 }
 
 INLINE void zone_loop(const int64_t law, const Layer *given, int64_t first, int64_t last, double step, double kick,
-                      const double *restrict v, const double *restrict w, const double *restrict u, double *restrict e,
-                      double *restrict f, double *restrict top, double *out) {
+                      const double *restrict v, const double *restrict w, const double *restrict u,
+                      const double *restrict settled, double *restrict e, double *restrict f, double *restrict top,
+                      double *out) {
     const Layer own = *given, *m = &own; /* no store can change a copy, so its members stay in registers */
     const double per_size = 1.0 / m->size, per_density = 1.0 / m->density, work = per_size * per_density;
     double most_stiff = out[0], most_speed = out[1], most_stress = out[2], most_strain = out[3], power = 0.0;
@@ -81,9 +82,9 @@ INLINE void zone_loop(const int64_t law, const Layer *given, int64_t first, int6
         e[i] = energy;
         double stress, tangent, stiffness, room;
         int smooth = 1;
-        if (law == IDEAL_GAS) { /* a gamma */
+        if (law == IDEAL_GAS) { /* a gamma; the energy is what was settled and what was gained since */
             double inverse = 1.0 / (1.0 - strain);
-            double now = energy + 0.5 * step * work * f[i] * jump;
+            double now = settled[i] + energy + 0.5 * step * work * f[i] * jump;
             stress = (m->a - 1.0) * m->density * inverse * now;
             stiffness = tangent = m->a * stress * inverse;
         } else {
@@ -122,14 +123,14 @@ INLINE void zone_loop(const int64_t law, const Layer *given, int64_t first, int6
 #define LOOP(NAME) \
     static __attribute__((noinline)) void loop_##NAME( \
         const Layer *m, int64_t first, int64_t last, double step, double kick, const double *restrict v, \
-        const double *restrict w, const double *restrict u, double *restrict e, double *restrict f, \
-        double *restrict top, double *out) { \
-        zone_loop(NAME, m, first, last, step, kick, v, w, u, e, f, top, out); \
+        const double *restrict w, const double *restrict u, const double *restrict settled, double *restrict e, \
+        double *restrict f, double *restrict top, double *out) { \
+        zone_loop(NAME, m, first, last, step, kick, v, w, u, settled, e, f, top, out); \
     }
 LOOP(EPPH) LOOP(EPPH_TANGENT) LOOP(RPH) LOOP(TABLE) LOOP(IDEAL_GAS) LOOP(POWER)
 
 typedef void (*Loop)(const Layer *, int64_t, int64_t, double, double, const double *, const double *, const double *,
-                     double *, double *, double *, double *);
+                     const double *, double *, double *, double *, double *);
 static const Loop loops[] = {loop_EPPH, loop_EPPH_TANGENT, loop_RPH, loop_TABLE, loop_IDEAL_GAS, loop_POWER};
 
 static __attribute__((noinline)) void node_loop(int64_t first, int64_t last, double step, double kick,
@@ -143,9 +144,10 @@ static __attribute__((noinline)) void node_loop(int64_t first, int64_t last, dou
 
 static double pressure(const Ledger *g, double time) { return time < g->duration ? g->peak : 0.0; }
 
-/* `steps` steps. Velocities (node i at i + 1, ghosts at the ends) are in `v` before and after; `w` is room to work in. */
+/* `steps` steps. Velocities (node i at i + 1, ghosts at the ends) are in `v` before and after; `w` is room to work in;
+   `e` is the energy gained since `settled`. */
 void march(Ledger *g, const Layer *layers, int64_t layer_count, int64_t zones, int64_t steps, double *v, double *w,
-           double *u, double *e, double *f, double *top, const double *mass, const double *im) {
+           double *u, const double *settled, double *e, double *f, double *top, const double *mass, const double *im) {
 #ifdef __SSE2__
     unsigned int control = _mm_getcsr();
     _mm_setcsr(control | 0x8040); /* numbers below 1e-308 count as zero: they are slow */
@@ -175,7 +177,7 @@ void march(Ledger *g, const Layer *layers, int64_t layer_count, int64_t zones, i
                 node_loop(node, ahead, step, kick, after, before, u, f, im);
                 if (ahead > node) node = ahead;
                 after[0] = after[2], after[zones + 2] = after[zones];
-                loops[m->law](m, start, end, step, kick, after, before, u, e, f, top, out);
+                loops[m->law](m, start, end, step, kick, after, before, u, settled, e, f, top, out);
             }
             double d = out[1];
             stable = smaller(stable, m->size / (sqrt(out[0] / m->density + d * d) + d));
