@@ -64,17 +64,16 @@ class _Scene:
         self.lines, self.scales = [], []
         for one, quantity in zip(axes[:, 0], quantities, strict=True):
             values = profile_quantity(run, quantity)
+            finite = values[np.isfinite(values)] if np.isfinite(values).any() else np.zeros(1)
             scale, label = scaled(run, quantity)
-            low, high = (float(bound) / scale.size for bound in np.nanpercentile(values, (0.5, 99.9)))
+            low, high = (float(bound) / scale.size for bound in np.percentile(finite, (0.5, 99.9)))
             margin = 0.06 * (high - low) or 1.0
             one.set_ylim(low - margin, high + margin)
             one.set_ylabel(label)
             self.lines += one.plot([], [], color=PALETTE[0], linewidth=1.3)
             self.scales.append(scale)
         nodes = run["node_coordinate"] if frame == "lagrangian" else run["position"]
-        axes[-1, 0].set_xlim(
-            float(np.min(nodes)) / length_scale(run).size, float(np.max(nodes)) / length_scale(run).size
-        )
+        axes[-1, 0].set_xlim(*(float(end(nodes)) / length_scale(run).size for end in (np.nanmin, np.nanmax)))
         axes[-1, 0].set_xlabel(length_label(run, frame))
         self.figure.suptitle(heading(run), fontsize=11)
         self.clock = axes[0, 0].set_title("", fontsize=9, loc="right")

@@ -73,6 +73,8 @@ def _mesh(run: Run, values: np.ndarray, frame: str) -> tuple[np.ndarray, np.ndar
     cells = np.arange(0, values.shape[1], every)
     nodes = np.append(cells, values.shape[1])
     rows = np.arange(0, len(values), step)
+    if frame != "lagrangian":  # the last state of a calculation that broke down may be nowhere
+        rows = rows[np.isfinite(run["position"][rows]).all(axis=1)]
     time = run.time[rows]
     edges = np.concatenate([time[:1], 0.5 * (time[:-1] + time[1:]), time[-1:]])
     shown = values[rows][:, np.minimum(cells + every // 2, values.shape[1] - 1)]

@@ -1,10 +1,12 @@
 """Figures: what functions return, what they say when they cannot draw."""
 
 import math
+import warnings
 
 import matplotlib
 import numpy as np
 import pytest
+import synthetic
 from coarse import DECK
 from matplotlib.figure import Figure
 from synthetic import END, LENGTH, made_run
@@ -214,6 +216,25 @@ def test_gif_moves(tmp_path):
 
     with Image.open(plot.animate(made_run(), tmp_path / "a.gif", frames=4, dpi=40)) as film:
         assert film.n_frames == 4
+
+
+@pytest.mark.parametrize("odd", [np.nan, np.inf])
+def test_the_last_state_of_a_breakdown_is_drawn_without_a_word(tmp_path, monkeypatch, odd):
+    def broken(*arguments):
+        arrays = {name: np.array(values, dtype=float) for name, values in profiles(*arguments).items()}
+        for name in ("density",) if odd > 0.0 else arrays:  # full strain, or a state that is not finite
+            arrays[name][-1, :5] = odd
+        return arrays
+
+    profiles = synthetic._profiles
+    monkeypatch.setattr(synthetic, "_profiles", broken)
+    run = made_run()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for frame in ("lagrangian", "laboratory"):
+            plot.save(plot.xt(run, "density", frame)[0], tmp_path / "xt.png", 30)
+            plot.save(plot.profiles(run, ["density"], frame=frame)[0], tmp_path / "profiles.png", 30)
+            plot.animate(run, tmp_path / "a.gif", ["density"], frame=frame, frames=2, dpi=30)
 
 
 def test_film_endings(tmp_path, monkeypatch):
