@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from hydro1d.boundaries.pulses.base import Pulse
+from hydro1d.plugins import builtin_names, find
 from hydro1d.variables import HERALD
 
 if TYPE_CHECKING:
@@ -56,7 +58,7 @@ class Verdict(NamedTuple):
 
 
 def verdict_of(run: Run, deck: Deck | None = None) -> Verdict:
-    """The verdict on a run that holds a history. deck: knows the pressure at the end; without, nothing is said of it."""
+    """The verdict on a run that holds a history. deck: needed only for pulses of the user's own."""
     ends = ends_of(deck) if deck is not None else ends_of_data(run.deck)
     applied = float(run.attributes.get("peak_applied_pressure") or 0.0) if ends.by_pressure else 0.0
     felt = felt_on(run, ends.support)
@@ -107,6 +109,19 @@ def _ends(pushed: Mapping[str, bool], moved: Mapping[str, bool]) -> Ends:
     return Ends(loaded, "right" if loaded == "left" else "left", sum(pushed.values()) == 1)
 
 
+def pulse_of(run: Run, side: str) -> Pulse | None:
+    """The pulse on an end of a result's column, whatever the laws are; None where there is none of hydro1d's own."""
+    data = run.deck.get(side, {})
+    if data.get("pulse") not in builtin_names("pulse"):
+        return None
+    kind = find("pulse", data["pulse"])
+    try:
+        found = kind(**{key: value for key, value in data.items() if key in kind.model_fields})
+    except ValueError:  # a file by a version whose pulse had other keys
+        return None
+    return found if isinstance(found, Pulse) else None
+
+
 def _boundaries(deck: Deck) -> dict[str, Boundary]:
     return {"left": deck.left, "right": deck.right}
 
@@ -115,7 +130,7 @@ def _pending(run: Run, deck: Deck | None, ends: Ends, arrived: bool) -> list[str
     """What has not come to its end with the run."""
     end = float(run.history["time"][-1])
     found = []
-    pulse = getattr(_boundaries(deck)[ends.loaded], "pulse", None) if deck is not None else None
+    pulse = getattr(_boundaries(deck)[ends.loaded], "pulse", None) if deck is not None else pulse_of(run, ends.loaded)
     if pulse is not None and abs(pulse.pressure(end)) > ACTS * pulse.peak_pressure():
         found.append("the pressure still acts")
     if arrived and _rises(run, ends.support):

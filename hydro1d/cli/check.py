@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from hydro1d.cli import _common
 
 if TYPE_CHECKING:
+    from hydro1d.boundaries.base import Boundary
     from hydro1d.deck import Deck
 
 
@@ -34,10 +35,7 @@ def reading(deck: Deck) -> list[str]:
         moving = f", moving at {layer.velocity:g} m/s" if layer.velocity else ""
         thickness = _common.figure(layer.thickness, "m")
         lines.append(f"layer[{index}]: {layer.material} ({law}), {thickness} in {layer.zones} zones of {size}{moving}")
-    for side in ("left", "right"):
-        pulse = f", {plain[side]['pulse']}" if "pulse" in plain[side] else ""
-        peak = getattr(deck, side).peak()
-        lines.append(f"{side}: {plain[side]['type']}{pulse}" + (f", peak {_common.figure(peak, 'Pa')}" if peak else ""))
+    lines += [f"{side}: {_end(getattr(deck, side), plain[side])}" for side in ("left", "right")]
     profiles = len(deck.output.profiles)  # type: ignore[arg-type]
     zones = sum(layer.zones for layer in deck.layers)
     megabytes = profiles * zones * 8 * 8 / 1e6
@@ -47,6 +45,22 @@ def reading(deck: Deck) -> list[str]:
     lines += _late_enough(deck)
     lines += [f"note: {file} is Python code that this deck names; it was run to check it" for file in deck.user_code()]
     return lines
+
+
+def _end(boundary: Boundary, plain: dict[str, Any]) -> str:
+    """A boundary in a line: its type, its pulse, and what numbers it is given."""
+    words = [str(plain["type"]), *([str(plain["pulse"])] if "pulse" in plain else [])]
+    for component in (getattr(boundary, "pulse", None), boundary):
+        for name, field in type(component).model_fields.items() if component is not None else ():
+            value, extra = getattr(component, name), field.json_schema_extra
+            if isinstance(value, float) and isinstance(extra, dict) and "unit" in extra:
+                unit = "" if extra["unit"] == "1" else str(extra["unit"])
+                words.append(f"{name.replace('_', ' ')} {_common.figure(value, unit)}")
+            elif isinstance(value, bool) and value != field.default:
+                words.append(f"{name.replace('_', ' ')} = {str(value).lower()}")
+            elif isinstance(value, tuple) and value:
+                words.append(f"{name} of {_common.count(len(value), 'point')}")
+    return ", ".join(words)
 
 
 def _late_enough(deck: Deck) -> list[str]:

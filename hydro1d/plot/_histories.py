@@ -13,8 +13,8 @@ from hydro1d.errors import FileProblem
 from hydro1d.fronts import front_path
 from hydro1d.plot._base import GREY, as_run, heading, legend, name_of, new_figure
 from hydro1d.plot._frames import FRONTS
-from hydro1d.plot._materials import deck_of
 from hydro1d.plot._units import Scale, scale_for, words
+from hydro1d.verdict import pulse_of
 
 if TYPE_CHECKING:
     from hydro1d.plot._base import RunOrPath
@@ -81,11 +81,10 @@ def draw_history(axes: Axes, run: Run, names: Sequence[str], label: str) -> None
 
 
 def applied_pressures(run: Run) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    """Label, times (s) and pressure (Pa) of the pulses on the ends; none where only code of the user's knows them."""
-    deck = deck_of(run)
+    """Label, times (s) and pressure (Pa) of the pulses on the ends; none for those that only code of the user's knows."""
     found = []
     for side in ("left", "right"):
-        pulse = getattr(getattr(deck, side, None), "pulse", None)
+        pulse = pulse_of(run, side)
         if pulse is not None:
             end = float(run.history["time"][-1])
             jumps = [time * (1.0 + step) for time in pulse.corners() for step in (-1e-9, 1e-9) if time < end]

@@ -11,7 +11,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hydro1d.fronts import front_path
-from hydro1d.plot._base import PALETTE, SEQUENTIAL, as_run, heading, legend, new_figure, profile_quantity, times_of
+from hydro1d.plot._base import (
+    GREY,
+    PALETTE,
+    SEQUENTIAL,
+    as_run,
+    heading,
+    legend,
+    new_figure,
+    profile_quantity,
+    times_of,
+)
 from hydro1d.plot._materials import curve, deck_of, loads_by_strain, strain_grid
 from hydro1d.plot._units import Scale, scale_for
 
@@ -22,6 +32,7 @@ if TYPE_CHECKING:
     from hydro1d.plot._base import RunOrPath
     from hydro1d.store import Run
 
+NO_CURVE = "no curve: the law is code of its user's; name the deck to have it run and drawn"
 PATHS = 3
 SNAPSHOTS = 5
 LEAST_JUMP = 0.1  # of strain: weaker fronts do not crush
@@ -126,6 +137,9 @@ def _has_loaded(run: Run, index: int, behind: int, ahead: int) -> bool:
 def _draw_curves(axes: Axes, run: Run, deck: object, scale: Scale, strain: float, top: float) -> None:
     known = deck_of(run, deck)  # type: ignore[arg-type]
     if known is None:
+        axes.annotate(
+            NO_CURVE, (1.0, 0.0), (-4, 4), "axes fraction", "offset points", ha="right", fontsize=8, color=GREY
+        )
         return
     drawn: dict[str, object] = {}
     for layer in known.layers:

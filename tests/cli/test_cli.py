@@ -87,8 +87,25 @@ def test_check_reads_the_deck_back(deck, capsys):
     assert err == ""
     assert out.startswith(f"{deck}: in order\ntitle: A short run\n")
     assert "layer[0]: foam (epph), 1 m in 20 zones of 50 mm" in out
-    assert "left: pressure, rectangular, peak 3.6 MPa" in out
+    assert "left: pressure, rectangular, peak 3.6 MPa, duration 1.53 ms\nright: wall\n" in out
     assert not list(Path.cwd().glob("*.h5"))
+
+
+@pytest.mark.parametrize(
+    ("end", "line"),
+    [
+        ('{type="striker", mass="40 kg/m^2", velocity="200 m/s"}', "striker, mass 40 kg/m^2, velocity 200 m/s"),
+        ('{type="piston", table=[[0, 0], ["1 ms", 9]]}', "piston, table of 2 points"),
+        ('{type="wall", bonded=false}', "wall, bonded = false"),
+        (
+            '{type="pressure", pulse="friedlander", peak=1e6, duration=1e-3, decay=1, negative_phase=true}',
+            "pressure, friedlander, peak 1 MPa, duration 1 ms, decay 1, negative phase = true",
+        ),
+    ],
+)
+def test_check_shows_what_an_end_is_given(deck, capsys, end, line):
+    assert main(["check", deck, "--set", f"left={end}"]) == 0
+    assert f"\nleft: {line}\n" in capsys.readouterr().out
 
 
 def test_check_names_all_errors_in_one_block(deck, capsys):

@@ -208,7 +208,10 @@ def test_a_run_with_code_of_its_user_draws_without_running_it():
     deck = {**made_run().deck, "material": {"foam": {"law": "evil.py:Law"}}}
     run = made_run(deck=deck)
     assert deck_of(run) is None
-    plot.hugoniot(run)
+    _, axes = plot.hugoniot(run)
+    assert axes.texts[0].get_text().startswith("no curve: the law is code of its user's")
+    assert not plot.hugoniot(made_run())[1].texts
+    assert "applied pressure" in plot.history(run)[1][0].get_legend_handles_labels()[1]  # the pulse is hydro1d's own
 
 
 def test_gif_moves(tmp_path):

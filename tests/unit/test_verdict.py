@@ -64,6 +64,15 @@ def test_a_verdict_that_may_change_says_so(tmp_path, monkeypatch, capsys):
     assert f"not over at t = 2 ms: the column is still being crushed; {LATER}" in out
 
 
+def test_what_acts_is_known_without_the_laws_of_the_deck():
+    run = hydro1d.run(hydro1d.load_deck(DECK, ["time.end=1e-3"]))
+    assert "the pressure still acts" in verdict_of(run).pending
+    run.deck["material"]["foam"]["law"] = "mine.py:Mine"
+    assert verdict_of(run).pending[0] == "the pressure still acts"
+    run.deck["left"]["pulse"] = "mine.py:Pulse"
+    assert verdict_of(run).pending == ("the column is still being crushed",)
+
+
 def test_a_peak_that_still_rises_is_named():
     run = hydro1d.run(hydro1d.load_deck(DECK, ["time.end=1.5e-3"]))  # the foot of the wave is at the wall
     assert "the peak on the support still rises" in verdict_of(run).pending
