@@ -17,7 +17,7 @@ from hydro1d.fit._curve import MeasuredCurve
 _FALLEN = 0.95  # of its maximum: noise alone does not bring η lower
 _TOE = 0.02  # strains in which the specimen settles, and η is a quotient of small numbers
 _BEND = 0.02  # of the last stress: a knee that is lower is none
-_WINDOW = (
+WINDOW = (
     0.01  # strain on either side over which a stress is averaged: less than any plateau, more than a machine's noise
 )
 
@@ -66,7 +66,7 @@ def _knee(strain: np.ndarray, stress: np.ndarray) -> int:
 
 def averaged(strain: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Mean stress around each point, over as much before as behind it; of a curve of few points, the points themselves."""
-    reach = np.minimum(_WINDOW, np.minimum(strain - strain[0], strain[-1] - strain)) * (1.0 + 1e-9)
+    reach = np.minimum(WINDOW, np.minimum(strain - strain[0], strain[-1] - strain)) * (1.0 + 1e-9)
     first = np.searchsorted(strain, strain - reach, side="left")
     behind = np.searchsorted(strain, strain + reach, side="right")
     total = np.concatenate([[0.0], np.cumsum(stress)])

@@ -11,11 +11,12 @@ from pydantic import ValidationError
 
 from hydro1d.errors import DeckError
 from hydro1d.fit._curve import MeasuredCurve, checked, read_measured
-from hydro1d.fit._efficiency import Efficiency, averaged, energy_efficiency
+from hydro1d.fit._efficiency import WINDOW, Efficiency, averaged, energy_efficiency
 from hydro1d.fit._models import elastic_modulus
 from hydro1d.laws.table import Table
 
 _NEAR = 0.005  # of √(plateau² + stress²): how far a straight line between two points may miss those between
+_NOISE = 3.0  # standard deviations that a straight line may miss: steps within them are not the foam's
 _ON_LINE = 0.97  # of the elastic line: a point above is on it
 _FEWEST_ELASTIC = 2  # points before the first corner that make a slope
 _UNSETTLED = 0.003  # of strain before the end: a mean over less still has the noise
@@ -73,7 +74,7 @@ def tabulate(
 
     Stresses are averaged over ±0.01 of strain, then raised and lowered as little as possible until none falls (isotonic
     regression: a peak and the trough behind it become a level between them), and thinned to points between which straight
-    lines stay within 0.5 %. Raises DeckError and FileProblem as `fit_curve` does.
+    lines stay within 0.5 %, or within what is left of the noise. Raises DeckError and FileProblem as `fit_curve` does.
     """
     notes: tuple[str, ...] = ()
     if isinstance(curve, str | os.PathLike):
@@ -82,9 +83,11 @@ def tabulate(
         curve = checked(curve.strain, curve.stress, largest_strain)
     found = energy_efficiency(curve)
     slope = elastic_modulus(curve, found)
-    strain, stress = _settled(curve.strain, averaged(curve.strain, curve.stress))
+    mean = averaged(curve.strain, curve.stress)
+    near = max(_NEAR, _NOISE * _scatter(curve, mean, found.plateau_stress))
+    strain, stress = _settled(curve.strain, mean)
     first = _end_of_line(strain, stress, slope, found)
-    kept = first + _corners(strain[first:], stress[first:], _NEAR * np.hypot(found.plateau_stress, stress[first:]))
+    kept = first + _corners(strain[first:], stress[first:], near * np.hypot(found.plateau_stress, stress[first:]))
     points = np.column_stack([strain[kept], stress[kept]])
     modulus = max(slope, _least_modulus(points))
     if np.count_nonzero((curve.strain > 0.0) & (curve.strain < points[0, 0])) < _FEWEST_ELASTIC:
@@ -95,6 +98,13 @@ def tabulate(
     corners = _law(points, modulus).corners
     residuals = np.interp(curve.strain, *corners.T) - curve.stress
     return Tabulated(curve, points, modulus, corners, residuals, float(np.sqrt(np.mean(residuals**2))), found, notes)
+
+
+def _scatter(curve: MeasuredCurve, mean: np.ndarray, plateau: float) -> float:
+    """Standard deviation of the mean stress, over √(plateau² + stress²): what is left of a machine's noise."""
+    together = max(2.0 * WINDOW / float(np.median(np.diff(curve.strain))), 1.0)
+    share = (curve.stress - mean) / np.hypot(plateau, mean)
+    return float(np.sqrt(np.mean(share**2) / together))
 
 
 def _least_modulus(points: np.ndarray) -> float:

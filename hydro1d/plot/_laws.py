@@ -98,14 +98,17 @@ def _draw_hugoniot(axes: Axes, law: Law, shock: Hugoniot) -> None:
     if not len(shock.strain):
         _say(axes, "no shock on this curve")
         return
-    axes.plot(shock.velocity_jump, shock.strain, color=PALETTE[0], label="strain behind, left")
-    axes.plot(shock.velocity_jump, shock.foot, color=PALETTE[0], linewidth=0.9, alpha=0.6, label="strain ahead, left")
+    # On a serrated plateau every step up is a small shock; drawn are those that are stronger than all to lower strains.
+    strong = shock.velocity_jump >= np.maximum.accumulate(shock.velocity_jump)
+    velocity_jump, front_speed = shock.velocity_jump[strong], shock.front_speed[strong]
+    axes.plot(velocity_jump, shock.strain[strong], color=PALETTE[0], label="strain behind, left")
+    axes.plot(velocity_jump, shock.foot[strong], color=PALETTE[0], linewidth=0.9, alpha=0.6, label="strain ahead, left")
     axes.set_ylabel("strain ε on both sides of the front")
     axes.set_ylim(0.0, 1.0)
     other = axes.twinx()
-    other.plot(shock.velocity_jump, shock.front_speed, color=PALETTE[1], linestyle="--", label="front speed, right")
+    other.plot(velocity_jump, front_speed, color=PALETTE[1], linestyle="--", label="front speed, right")
     wave = float(np.sqrt(curve(law, np.zeros(1))[1][0] / law.density))
-    if wave < 3.0 * float(shock.front_speed.max()):
+    if wave < 3.0 * float(front_speed.max()):
         other.axhline(wave, color=GREY, linestyle=":", linewidth=1.0, label="elastic wave, right")
     other.set_ylim(bottom=0.0)
     other.set_ylabel("Lagrangian speed [v]/[ε] (m/s)")

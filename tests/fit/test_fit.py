@@ -335,3 +335,10 @@ def test_a_table_of_a_curve_without_its_elastic_part_says_so():
     assert not any("elastic" in note for note in fit.tabulate(curve).notes)
     (note,) = fit.tabulate(fit.MeasuredCurve(curve.strain[beyond], curve.stress[beyond])).notes
     assert "hardly a point on its elastic line" in note
+
+
+def test_noise_does_not_make_steps_in_a_table():
+    found = fit.tabulate(rising(400, 0.02, yielded=0.8e6, rise=0.4e6, seed=5))
+    plateau = found.points[(found.points[:, 0] > 0.05) & (found.points[:, 0] < 0.6)]
+    assert len(plateau) < 8  # without noise 2
+    assert len(found.points) < 25
