@@ -16,11 +16,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--only", metavar="FIGURE", action="append", default=[], help="one figure, for example 6; can be repeated"
     )
     parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="search on the Dask cluster of this scheduler")
     parser.add_argument("-q", "--quiet", action="store_true", help="do not say what is being made")
 
 
 def run(args: argparse.Namespace) -> None:
     """Make the figures and the page."""
+    from hydro1d.cli.sweep import executor_at
     from hydro1d.deck.messages import one_of
     from hydro1d.errors import DeckError
     from hydro1d.paper.reproduce import PARTS, reproduce
@@ -36,5 +38,8 @@ def run(args: argparse.Namespace) -> None:
         if not args.quiet:
             print(text, flush=True)
 
-    page = reproduce(args.out, quick=args.quick, only=tuple(args.only), threads=args.threads, say=say)
+    with executor_at(args.scheduler) as executor:
+        page = reproduce(
+            args.out, quick=args.quick, only=tuple(args.only), threads=args.threads, executor=executor, say=say
+        )
     say(f"page: {page}")

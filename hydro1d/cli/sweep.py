@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     check_text_target(table_file)
     _common.refuse_other_kind(target, table=True)
     journal = target.with_suffix(".journal")
-    with _common.progress_bar(args.quiet) as progress, _executor(args.scheduler) as executor:
+    with _common.progress_bar(args.quiet) as progress, executor_at(args.scheduler) as executor:
         table = run_sweep(
             sweep, executor=executor, threads=args.threads, journal=journal, fresh=args.fresh, progress=progress
         )  # fmt: skip
@@ -79,7 +79,7 @@ def _shown(value: object, unit: str) -> str:
 
 
 @contextmanager
-def _executor(address: str | None) -> Iterator[Executor | None]:
+def executor_at(address: str | None) -> Iterator[Executor | None]:
     """A Dask cluster as an executor, or None for threads."""
     if address is None:
         yield None

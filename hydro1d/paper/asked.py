@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 from hydro1d.paper import foam
@@ -13,7 +12,6 @@ from hydro1d.paper.masses import HARD
 from hydro1d.paper.rooms import Band, Chain, critical
 from hydro1d.paper.workshop import BLUE, ORANGE, Workshop, new_figure
 from hydro1d.sweep import Column, Table
-from hydro1d.sweep.base import threads_here
 
 PRESSURE = 2.4e6
 LOCK = 3e-3  # room; springs stay above it at this pressure
@@ -53,14 +51,13 @@ CASES = {
 
 def what_is_asked(work: Workshop) -> None:
     """Critical durations over Eq. 30, case by case, for both kinds of springs."""
-    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
-        tasks = {
-            (name, kind, question): pool.submit(_search, case, kind, question)
-            for name, case in CASES.items()
-            for kind in KINDS
-            for question in case.questions
-        }
-        found = {key: task.result() for key, task in tasks.items()}
+    tasks = {
+        (name, kind, question): work.pool.submit(_search, case, kind, question)
+        for name, case in CASES.items()
+        for kind in KINDS
+        for question in case.questions
+    }
+    found = {key: task.result() for key, task in tasks.items()}
     table = work.table("new8_asked", Table(_columns(found)))
     _draw(work, table)
     for (name, kind, question), (first, last) in found.items():

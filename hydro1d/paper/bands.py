@@ -8,7 +8,6 @@ and above 6 MPa, where springs are so hard that a meeting takes no time, the out
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,6 @@ from hydro1d.paper.boundary import CRITERIA, evaluate_at
 from hydro1d.paper.rooms import Band, Chain, answers
 from hydro1d.paper.springs import chain
 from hydro1d.paper.workshop import BLUE, GREY, RED, Workshop, columns, new_figure, plain
-from hydro1d.sweep.base import threads_here
 
 CHAINS = {"half mass": Chain(end_mass=0.5), "equal masses": Chain()}
 LOW, HIGH = 0.3, 0.55  # durations over Eq. 30: no there and yes here, at every pressure
@@ -31,9 +29,8 @@ Outcomes = dict[str, np.ndarray]  # chain and criterion -> answers (pressures, d
 def outcomes(work: Workshop, pressures: Sequence[float]) -> tuple[np.ndarray, Outcomes]:
     """Durations over Eq. 30, and what every one of them does to both chains at these pressures (Pa)."""
     shares = np.linspace(LOW, HIGH, work.size.band_points)
-    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
-        tasks = {name: [pool.submit(answers, own, p, shares) for p in pressures] for name, own in CHAINS.items()}
-        rows = {name: np.array([task.result() for task in many]) for name, many in tasks.items()}
+    tasks = {name: [work.pool.submit(answers, own, p, shares) for p in pressures] for name, own in CHAINS.items()}
+    rows = {name: np.array([task.result() for task in many]) for name, many in tasks.items()}
     return shares, {f"{name} {criterion}": rows[name][:, k] for name in CHAINS for k, criterion in enumerate(CRITERIA)}
 
 
@@ -94,8 +91,7 @@ def _solver_numbers(work: Workshop) -> None:
     def ask(share: float) -> dict[str, Any]:
         return evaluate_at(own, HARDEST, float(share) * foam.eq30(HARDEST), (), CRITERIA)
 
-    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
-        rows = list(pool.map(ask, shares))
+    rows = list(work.pool.map(ask, shares))
     for criterion, expected in zip(CRITERIA, said, strict=True):
         same = np.mean([row[criterion] == float(yes) for row, yes in zip(rows, expected, strict=True)])
         note = f"of {len(shares)} pulses at P = {HARDEST / 1e6:g} MPa, {LOW:g} to {HIGH:g} of Eq. 30"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,6 @@ from hydro1d.paper.boundary import Curve, evaluate_at
 from hydro1d.paper.workshop import Workshop, columns, deck_data, deck_path, new_figure
 from hydro1d.store import Run
 from hydro1d.sweep import Table
-from hydro1d.sweep.base import threads_here
 from hydro1d.sweep.energy import elastic_energy
 
 PRESSURES = (2.0, 3.0, 3.6, 4.5, 6.0, 8.0, 10.0)
@@ -99,9 +97,8 @@ def peak_map(work: Workshop) -> None:
 def _peaks(work: Workshop, curve: Curve, loads: Sequence[tuple[float, float]]) -> Table:
     """Peak over P and whether all is crushed, at every load (Pa, s)."""
     outcomes = (f"enhancement > {TOP:g}", "fully_crushed")
-    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
-        runs = [pool.submit(evaluate_at, curve, p, t, ("enhancement",), outcomes) for p, t in loads]
-        rows = [run.result() for run in runs]
+    runs = [work.pool.submit(evaluate_at, curve, p, t, ("enhancement",), outcomes) for p, t in loads]
+    rows = [run.result() for run in runs]
     return columns(
         enhancement=[row["enhancement"] for row in rows], fully_crushed=[row["fully_crushed"] for row in rows]
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,7 +31,6 @@ from hydro1d.paper.workshop import (
     plain,
 )
 from hydro1d.sweep import Column, Table
-from hydro1d.sweep.base import threads_here
 
 LINEAR_TOP = 5.4e6  # Pa: Eq. 39 ends at 5.5 MPa
 # Pa. The first spring takes up two thirds of (P - σP) L/N: its energy grows as σP β/rate ln(1/room), so its room falls by a
@@ -117,7 +115,7 @@ def _trace(work: Workshop, reaches: Sequence[_Reach], pressures: Sequence[float]
         wanted.setdefault(own, []).append(curve)
     traced: dict[str, list[Point]] = {}
     for own, curves in wanted.items():
-        for name, points in trace_curves(curves, own, foam.eq30, work.size.tolerance, work.threads).items():
+        for name, points in trace_curves(curves, own, foam.eq30, work.size.tolerance, work.pool).items():
             nothing = dict.fromkeys(points[0].durations, math.nan)
             found = {point.pressure: point for point in points}
             traced[name] = [found.get(p, Point(p, dict(nothing))) for p in pressures]
@@ -154,12 +152,11 @@ def _band_columns(pressures: Sequence[float], shares: np.ndarray, found: Outcome
 def _locking_columns(work: Workshop, pressures: Sequence[float]) -> list[Column]:
     """Plastic springs that become rigid links near their pole, s."""
     made = []
-    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
-        for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True):
-            tasks = [pool.submit(critical, LOCKING, question, p, (0.7, 1.3)) for p in pressures]
-            values = [foam.eq30(p) * task.result().last for p, task in zip(pressures, tasks, strict=True)]
-            text = f"critical duration, plastic springs that lock, {plain(criterion)}"
-            made.append(Column(f"plastic locking {criterion}", "s", text, values))
+    for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True):
+        tasks = [work.pool.submit(critical, LOCKING, question, p, (0.7, 1.3)) for p in pressures]
+        values = [foam.eq30(p) * task.result().last for p, task in zip(pressures, tasks, strict=True)]
+        text = f"critical duration, plastic springs that lock, {plain(criterion)}"
+        made.append(Column(f"plastic locking {criterion}", "s", text, values))
     return made
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,7 +16,6 @@ from hydro1d.errors import DeckError
 from hydro1d.paper import foam
 from hydro1d.paper.workshop import plain
 from hydro1d.sweep import Column, Flip, Job, NoFlip, Table, evaluate, find_flip
-from hydro1d.sweep.base import threads_here
 from hydro1d.sweep.job import override
 
 CRITERIA = ("fully_crushed", "enhanced")
@@ -107,17 +106,16 @@ def trace_curves(
     pressures: Sequence[float],
     guess: Callable[[float], float],
     tolerance: float,
-    threads: int | None = None,
+    pool: Executor,
     scan: int = 5,
 ) -> dict[str, list[Point]]:
-    """Every curve at every pressure, on threads; the slow ones begin first."""
-    with ThreadPoolExecutor(threads or threads_here()) as pool:
-        futures = {
-            (curve.name, k): pool.submit(critical_durations, curve, pressure, guess(pressure), tolerance, scan)
-            for curve in curves
-            for k, pressure in enumerate(pressures)
-        }
-        return {curve.name: [futures[curve.name, k].result() for k in range(len(pressures))] for curve in curves}
+    """Every curve at every pressure, on the threads or processes of ``pool``; the slow ones begin first."""
+    futures = {
+        (curve.name, k): pool.submit(critical_durations, curve, pressure, guess(pressure), tolerance, scan)
+        for curve in curves
+        for k, pressure in enumerate(pressures)
+    }
+    return {curve.name: [futures[curve.name, k].result() for k in range(len(pressures))] for curve in curves}
 
 
 def boundary_table(traced: Mapping[str, Sequence[Point]], pressures: Sequence[float]) -> Table:

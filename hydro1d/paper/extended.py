@@ -72,7 +72,7 @@ def _solver(work: Workshop, deck: str, pressures: Sequence[float]) -> dict[str, 
         foam_curve(label, deck, 2 * work.size.zones, *texts, criteria=("fully_crushed",))
         for label, texts in (("H = E", ()), (f"H = {RIGIDITY:g} E", (stiff,)))
     ]
-    traced = trace_curves(curves, pressures, foam.eq30, work.size.tolerance, work.threads, scan=3)
+    traced = trace_curves(curves, pressures, foam.eq30, work.size.tolerance, work.pool, scan=3)
     return {
         label: [point.durations["fully_crushed"] / foam.eq30(point.pressure) for point in points]
         for label, points in traced.items()

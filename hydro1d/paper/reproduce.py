@@ -4,12 +4,27 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import nullcontext
 from pathlib import Path
 
-from hydro1d.paper import asked, beyond, boundaries, curves, extended, fronts, masses, pulses, springs, strikers
+from hydro1d.paper import (
+    asked,
+    beyond,
+    boundaries,
+    curves,
+    extended,
+    fronts,
+    hardening,
+    masses,
+    pulses,
+    springs,
+    strikers,
+)
 from hydro1d.paper.page import write_page
 from hydro1d.paper.studies import studies
 from hydro1d.paper.workshop import QUICK, Size, Workshop
+from hydro1d.sweep.base import threads_here
 
 PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
     ("1", curves.figure_1),
@@ -27,6 +42,7 @@ PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
     ("left", extended.energy_left),
     ("fronts", fronts.fronts),
     ("asked", asked.what_is_asked),
+    ("hardening", hardening.hardening),
     ("studies", studies),
 )
 
@@ -37,17 +53,20 @@ def reproduce(
     quick: bool = False,
     only: tuple[str, ...] = (),
     threads: int | None = None,
+    executor: Executor | None = None,
     say: Callable[[str], None] = print,
 ) -> Path:
     """Make every figure and number of the paper in ``folder``; returns the page that shows them.
 
-    ``quick``: coarser and fewer points, the same figures but for the studies; ``only``: names of `PARTS`.
+    ``quick``: coarser and fewer points, the same figures but for the studies; ``only``: names of `PARTS`. Searches run on
+    ``executor`` (any of concurrent.futures), else on so many threads.
     """
     begun = time.perf_counter()
-    work = Workshop(Path(folder), QUICK if quick else Size(), threads, say)
-    for name, part in PARTS:
-        if (not only and (work.size.studies or part is not studies)) or name in only:
-            work.timed(name, part)
+    with nullcontext(executor) if executor else ThreadPoolExecutor(threads or threads_here()) as pool:
+        work = Workshop(Path(folder), QUICK if quick else Size(), pool, say)
+        for name, part in PARTS:
+            if (not only and (work.size.studies or part is not studies)) or name in only:
+                work.timed(name, part)
     work.write_numbers()
     write_page(work, time.perf_counter() - begun)
     return work.folder / "index.html"

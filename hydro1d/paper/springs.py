@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -26,7 +25,6 @@ from hydro1d.paper.workshop import (
     plain,
 )
 from hydro1d.sweep import Column, Table
-from hydro1d.sweep.base import threads_here
 
 REVERSIBLE = ("time.cfl=0.05",)
 COARSE = ("time.cfl=0.1",)  # hundreds of masses
@@ -49,9 +47,9 @@ def figure_5(work: Workshop) -> None:
     first, few = size.masses[0], [n for n in size.masses if n < MANY]
     curves = [chain(f"{n} reversible", n, *REVERSIBLE) for n in few]
     curves.append(chain(f"{first} plastic", first, *PLASTIC))
-    traced = trace_curves(curves, pressures, foam.eq30, max(size.tolerance, 2e-3), work.threads, scan=7)
+    traced = trace_curves(curves, pressures, foam.eq30, max(size.tolerance, 2e-3), work.pool, scan=7)
     made = [*boundary_table(traced, pressures).columns.values(), *_many(work, pressures)]
-    made += [*_equal(first, pressures), Column("Eq. 30", "s", "Eq. 30", [foam.eq30(p) for p in pressures])]
+    made += [*_equal(work, few, pressures), Column("Eq. 30", "s", "Eq. 30", [foam.eq30(p) for p in pressures])]
     table = work.table("fig05_masses", Table(made))
     _draw_5(work, table)
     for kind, name in (("reversible", "half mass at the loaded end"), ("equal", "equal masses")):
@@ -62,13 +60,22 @@ def figure_5(work: Workshop) -> None:
             work.number("5", label, "1", solver=float(np.nanmean(shares)), note=note)
 
 
-def _equal(masses: int, pressures: Sequence[float]) -> list[Column]:
-    """Boundaries of equal masses and reversible springs, by the integrator of `rooms`."""
+def _equal(work: Workshop, counts: Sequence[int], pressures: Sequence[float]) -> list[Column]:
+    """Boundaries of equal masses and reversible springs, by the integrator of `rooms`; of many masses at every third pressure."""
+    tasks = {}
+    for masses in counts:
+        own = Chain(masses, cfl=0.02)
+        some, scan = (pressures, 12) if masses == counts[0] else (pressures[::3], 24)
+        for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True):
+            for p in some:
+                tasks[masses, criterion, p] = work.pool.submit(critical, own, question, p, (0.12, 0.6), scan=scan)
     made = []
-    for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True):
-        values = [critical(Chain(masses), question, p, (0.3, 0.6)).last * foam.eq30(p) for p in pressures]
-        text = f"critical duration, {masses} equal masses, reversible springs, {plain(criterion)}"
-        made.append(Column(f"{masses} equal {criterion}", "s", text, values))
+    for masses in counts:
+        for criterion in CRITERIA:
+            found = {p: task.result() for (n, name, p), task in tasks.items() if (n, name) == (masses, criterion)}
+            values = [found[p].last * foam.eq30(p) if p in found else math.nan for p in pressures]
+            text = f"duration from which on every pulse does it, {masses} equal masses, reversible springs, {plain(criterion)}"
+            made.append(Column(f"{masses} equal {criterion}", "s", text, values))
     return made
 
 
@@ -77,7 +84,7 @@ def _many(work: Workshop, pressures: Sequence[float]) -> list[Column]:
     made, some = [], pressures[::3]
     for n in (n for n in work.size.masses if n >= MANY):
         curve = chain(f"{n} reversible", n, *COARSE, bracket=(0.15, 0.6))
-        traced = trace_curves([curve], some, foam.eq30, 1e-2, work.threads, scan=4)
+        traced = trace_curves([curve], some, foam.eq30, 1e-2, work.pool, scan=4)
         for column in list(boundary_table(traced, some).columns.values())[1:]:
             found = dict(zip(some, column.values, strict=True))
             made.append(column._replace(values=[found.get(p, math.nan) for p in pressures]))
@@ -99,6 +106,8 @@ def _draw_5(work: Workshop, table: Table) -> None:
         seen = np.isfinite(tau)
         right.plot(tau[seen], p[seen], "-s", ms=3, color=color, lw=1.2, label=f"{n} masses")
         right.plot(table[f"{n} reversible enhanced"] * foam.RATE, p, "^", ms=5, mfc="none", color=color)
+        if n < MANY:
+            right.plot(table[f"{n} equal fully_crushed"] * foam.RATE, p, "x", ms=5, color=color)
     left.set(xlabel="τd", ylabel="p", title=f"{first} masses", xlim=(0.2, 3.2))
     right.set(xlabel="τd", title="reversible springs, number of masses", xlim=(0.2, 1.8))
     for ax in (left, right):
@@ -111,7 +120,7 @@ def _draw_5(work: Workshop, table: Table) -> None:
         "as the paper says: most nearly with equal masses (black), while the solver's chain has half a mass at the loaded "
         "end. Plastic springs lie far to the right of it. With more masses the support stress crosses P "
         "more than once as the pulse grows longer; the lowest crossing that the scan met is shown, and none where "
-        "it is above P all over the bracket."
+        "it is above P all over the bracket. Crosses: equal masses, the duration from which on every pulse crushes."
     )
     work.picture("fig05", "Fig. 5: mass–spring boundary", caption, figure, table)
 
@@ -144,6 +153,5 @@ def _peaks(work: Workshop, masses: int, shares: np.ndarray) -> list[float]:
     curve = chain(f"{masses}", masses, *(REVERSIBLE if masses < MANY else COARSE))
     durations = [float(share) * foam.eq30(STRIP) for share in shares]
     wanted, enough = ("enhancement",), ("enhancement > 10",)
-    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
-        runs = [pool.submit(evaluate_at, curve, STRIP, duration, wanted, enough) for duration in reversed(durations)]
-        return [run.result()["enhancement"] for run in reversed(runs)]
+    runs = [work.pool.submit(evaluate_at, curve, STRIP, duration, wanted, enough) for duration in reversed(durations)]
+    return [run.result()["enhancement"] for run in reversed(runs)]

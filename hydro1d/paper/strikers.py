@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from hydro1d import analytic
 from hydro1d.analytic import rppl, rppl_energy_balance
-from hydro1d.paper.workshop import BLUE, GREY, RED, Workshop, columns, deck_data, new_figure
+from hydro1d.paper.workshop import BLUE, GREY, RED, Size, Workshop, columns, deck_data, new_figure
 from hydro1d.sweep import Job, Table, evaluate, find_flip
-from hydro1d.sweep.base import threads_here
 from hydro1d.sweep.job import override
 
 MATERIAL, MASS = analytic.RPPL(155.0, 0.3e6, 0.67), 40.0
@@ -21,9 +19,8 @@ def figure_3(work: Workshop) -> None:
     """Eqs. 13 and 19, and the solver's critical lengths in the rigid limit."""
     speeds = np.linspace(400.0 / work.size.striker_points, 400.0, work.size.striker_points)
     soft, stiff = work.size.stiffness
-    with ThreadPoolExecutor(work.threads or threads_here()) as pool:
-        tasks = [pool.submit(_critical_length, work, float(v), k) for k in (stiff, soft) for v in speeds]
-        stiffer, softer = np.array([task.result() for task in tasks]).reshape(2, -1)
+    tasks = [work.pool.submit(_critical_length, work.size, float(v), k) for k in (stiff, soft) for v in speeds]
+    stiffer, softer = np.array([task.result() for task in tasks]).reshape(2, -1)
     ratio = math.sqrt(stiff / soft)
     limit = (ratio * stiffer - softer) / (ratio - 1.0)  # the error goes as stiffness^(-1/2)
     _draw(work, columns(v0__m_s=speeds, stiff__m=stiffer, soft__m=softer, rigid_limit__m=limit))
@@ -57,7 +54,7 @@ def _draw(work: Workshop, lengths: Table) -> None:
     work.picture("fig03", "Fig. 3: critical length against impact velocity", caption, figure, data)
 
 
-def _critical_length(work: Workshop, speed: float, stiffness: float) -> float:
+def _critical_length(size: Size, speed: float, stiffness: float) -> float:
     data = deck_data("striker.toml")
     guess = float(rppl.critical_length(MATERIAL, MASS, speed))
     end = 1.2 * MASS * speed / MATERIAL.plateau_stress
@@ -65,7 +62,7 @@ def _critical_length(work: Workshop, speed: float, stiffness: float) -> float:
         override("left.velocity", speed),
         override("material.foam.stiffness", stiffness),
         override("time.end", end),
-        override("layer[0].zones", work.size.zones),
+        override("layer[0].zones", size.zones),
     )
 
     def crushed(length: float) -> bool:
@@ -75,4 +72,4 @@ def _critical_length(work: Workshop, speed: float, stiffness: float) -> float:
             raise RuntimeError(row["error"])
         return bool(row["fully_crushed"])
 
-    return find_flip(crushed, 0.8 * guess, 1.25 * guess, tolerance=work.size.tolerance, scan=3).value
+    return find_flip(crushed, 0.8 * guess, 1.25 * guess, tolerance=size.tolerance, scan=3).value

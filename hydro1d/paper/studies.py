@@ -81,7 +81,7 @@ def _columns(work: Workshop) -> list[Column]:
     names: list[str] = []
     numbers: dict[str, dict[str, float]] = {}
     for curves, pressures in ((_continuum(work.size.zones), PRESSURES), (_chains(), CHAIN_PRESSURES)):
-        traced = trace_curves(curves, pressures, foam.eq30, 2e-3, work.threads)
+        traced = trace_curves(curves, pressures, foam.eq30, 2e-3, work.pool)
         for name, points in traced.items():
             names.append(name)
             for point in points:

@@ -8,6 +8,7 @@ import math
 import re
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,7 +21,7 @@ from hydro1d.deck import load_deck
 from hydro1d.errors import FileProblem
 from hydro1d.store import Run
 from hydro1d.sweep import Column, Table, read_table
-from hydro1d.sweep.base import base_data
+from hydro1d.sweep.base import base_data, threads_here
 
 BLUE, RED, GREEN, ORANGE = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00"
 PURPLE, GREY, BROWN, GOLD, PINK, LILAC = "#7d3c98", "#777777", "#8b5a2b", "#d9b648", "#d98cb3", "#b9a3d4"
@@ -102,9 +103,10 @@ class Workshop:
     """The folder that everything goes to, and what has been made so far."""
 
     def __init__(
-        self, folder: Path, size: Size, threads: int | None = None, say: Callable[[str], None] = print
+        self, folder: Path, size: Size, pool: Executor | None = None, say: Callable[[str], None] = print
     ) -> None:
-        self.folder, self.size, self.threads, self.say = folder, size, threads, say
+        self.folder, self.size, self.say = folder, size, say
+        self.pool = pool or ThreadPoolExecutor(threads_here())
         self.data = folder / "data"
         self.numbers: list[Number] = []
         self.pictures: list[Picture] = []

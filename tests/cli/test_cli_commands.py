@@ -77,7 +77,7 @@ def test_reproduce_says_what_it_makes_and_where(tmp_path, monkeypatch, capsys, q
 
     calls = []
 
-    def reproduce(out, *, quick, only, threads, say):
+    def reproduce(out, *, quick, only, threads, executor, say):
         calls.append((out, quick, only, threads))
         say("figure 6")
         return out / "index.html"

@@ -1,6 +1,7 @@
 """Figures and numbers of the paper: what does not take long is tried; the whole is `hydro1d reproduce`."""
 
 import csv
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from hydro1d.paper.masses import potential_error
 from hydro1d.paper.springs import PLASTIC, REVERSIBLE, chain
 from hydro1d.paper.workshop import QUICK, Number, Picture, Workshop, deck_path
 
+POOL = ThreadPoolExecutor(2)
 CASES = Path(hydro1d.__file__).parent.parent / "cases"
 
 
@@ -62,7 +64,7 @@ def test_eq30_is_the_rigid_limit_of_the_solver():
         )
         for k in (soft, stiff)
     ]
-    traced = trace_curves(curves, [3.6e6], foam.eq30, 2e-3, scan=2)
+    traced = trace_curves(curves, [3.6e6], foam.eq30, 2e-3, POOL, scan=2)
     low, high = (traced[f"{k}"][0].durations["fully_crushed"] / foam.eq30(3.6e6) for k in (soft, stiff))
     assert low < high < 1.0
     assert 2.0 * high - low == pytest.approx(1.0, abs=0.01)
@@ -70,7 +72,7 @@ def test_eq30_is_the_rigid_limit_of_the_solver():
 
 def test_chain_and_continuum_disagree():
     curves = [chain("chain", 10, *REVERSIBLE), foam_curve("foam", "pulse_tangent.toml", 50)]
-    traced = trace_curves(curves, [2.4e6], foam.eq30, 1e-2)
+    traced = trace_curves(curves, [2.4e6], foam.eq30, 1e-2, POOL)
     for criterion, low, high in (("fully_crushed", 0.78, 0.83), ("enhanced", 0.88, 0.98)):
         assert 0.36 < traced["chain"][0].durations[criterion] / foam.eq30(2.4e6) < 0.44
         assert low < traced["foam"][0].durations[criterion] / foam.eq30(2.4e6) < high
@@ -80,7 +82,7 @@ def test_chains_while_the_pulse_acts():
     """What happens after the pulse decides: if nothing counts but what happens under P, durations are 1.5 and 1.8."""
     later = {"end": with_the_pulse, "bracket": (0.8, 3.0), "criteria": ("fully_crushed",)}
     curves = [chain("reversible", 10, *REVERSIBLE, **later), chain("plastic", 10, *PLASTIC, **later)]
-    traced = trace_curves(curves, [2.4e6], foam.eq30, 1e-2)
+    traced = trace_curves(curves, [2.4e6], foam.eq30, 1e-2, POOL)
     found = {name: points[0].durations["fully_crushed"] / foam.eq30(2.4e6) for name, points in traced.items()}
     assert found["reversible"] == pytest.approx(1.474, rel=0.02)  # `rooms`: 1.474 and 1.796
     assert found["plastic"] == pytest.approx(1.796, rel=0.02)
@@ -118,7 +120,7 @@ def test_energy_left_decides_on_full_crushing():
     pressures, criteria = [1.5e6, 5e6], ("fully_crushed",)
     stiff = f"material.foam.unloading_modulus={extended.RIGIDITY * foam.MODULUS}"
     traced = trace_curves(
-        [foam_curve("foam", "pulse_epph.toml", 100, stiff, criteria=criteria)], pressures, foam.eq30, 2e-3, scan=2
+        [foam_curve("foam", "pulse_epph.toml", 100, stiff, criteria=criteria)], pressures, foam.eq30, 2e-3, POOL, scan=2
     )
     for point in traced["foam"]:
         theory = extended.critical_durations(foam.LINEAR, point.pressure)
@@ -151,8 +153,19 @@ def test_reproduce_one_figure(tmp_path):
     assert "fully_crushed" not in page
 
 
+@pytest.mark.slow
+def test_a_dask_cluster_gives_the_same_tables_bit_for_bit(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    arguments = ["reproduce", "--quick", "--only", "3", "--only", "6", "--quiet", "--out"]
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        assert main([*arguments, str(tmp_path / "dask"), "--scheduler", cluster.scheduler_address]) == 0
+    assert main([*arguments, str(tmp_path / "threads")]) == 0
+    for name in ("fig03.csv", "fig06.csv", "new9_bands.csv", "numbers.csv"):
+        assert (tmp_path / "dask" / name).read_bytes() == (tmp_path / "threads" / name).read_bytes()
+
+
 def test_pictures_know_their_figure():
-    names = {"fig01": "1", "fig11a": "11a", "fig12": "12", "new2_peak_map": "new 2"}
+    names = {"fig01": "1", "fig11a": "11a", "fig12": "12", "new2_peak_map": "new 2", "new10_hardening": "new 10"}
     assert {name: Picture(name, "", "").figure for name in names} == names
 
 
@@ -171,4 +184,4 @@ def test_reproduce_says_what_there_is(tmp_path, capsys):
 @pytest.mark.slow
 def test_reproduce_quick(tmp_path):
     assert main(["reproduce", "--quick", "--out", str(tmp_path), "--quiet"]) == 0
-    assert len(list(tmp_path.glob("*.png"))) == 17
+    assert len(list(tmp_path.glob("*.png"))) == 18
