@@ -61,16 +61,18 @@ def verdict_of(run: Run, deck: Deck | None = None) -> Verdict:
     """The verdict on a run that holds a history. deck: needed only for pulses of the user's own."""
     ends = ends_of(deck) if deck is not None else ends_of_data(run.deck)
     applied = float(run.attributes.get("peak_applied_pressure") or 0.0) if ends.by_pressure else 0.0
-    felt = felt_on(run, ends.support)
+    felt = felt_on(run, ends.support, applied)
     return Verdict(ends, applied, felt, tuple(_pending(run, deck, ends, felt > 0.0)))
 
 
-def felt_on(run: Run, side: str) -> float:
+def felt_on(run: Run, side: str, applied: float) -> float:
     """Peak stress (Pa) on an end; 0 as long as it is only the numerical herald of a wave that has not arrived.
 
-    A herald runs ahead of its wave by a few zones; it is faint and grows until the wave is there.
+    A herald runs ahead of its wave by a few zones; it is faint and grows until the wave is there. Faint is measured by the
+    ``applied`` pressure, if any: masses without viscosity collide with thousands of times as much.
     """
     felt, most = (float(run.history[name][-1]) for name in (f"peak_{side}_stress", "peak_stress"))
+    most = min(most, applied) if applied > 0.0 else most
     is_herald = felt <= HERALD * most or (felt < FAINT * most and _rises(run, side))
     return 0.0 if is_herald else felt
 

@@ -84,7 +84,8 @@ def _peak_support(run: Run, deck: Deck) -> float:
 
 
 def _enhancement(run: Run, deck: Deck) -> float:
-    applied, felt = applied_peak(deck), felt_on(run, support_side(deck))
+    applied = applied_peak(deck)
+    felt = felt_on(run, support_side(deck), applied)
     return felt / applied if applied > 0.0 and felt > 0.0 else float("nan")
 
 

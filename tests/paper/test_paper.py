@@ -12,7 +12,7 @@ from hydro1d import analytic
 from hydro1d.cli import main
 from hydro1d.paper import extended, foam, fronts, pulses
 from hydro1d.paper.boundaries import foam_curve
-from hydro1d.paper.boundary import trace_curves, with_the_pulse
+from hydro1d.paper.boundary import evaluate_at, trace_curves, with_the_pulse
 from hydro1d.paper.chain import equal_masses, potential, spring
 from hydro1d.paper.masses import potential_error
 from hydro1d.paper.springs import PLASTIC, REVERSIBLE, chain
@@ -76,6 +76,17 @@ def test_chain_and_continuum_disagree():
     for criterion, low, high in (("fully_crushed", 0.78, 0.83), ("enhanced", 0.88, 0.98)):
         assert 0.36 < traced["chain"][0].durations[criterion] / foam.eq30(2.4e6) < 0.44
         assert low < traced["foam"][0].durations[criterion] / foam.eq30(2.4e6) < high
+
+
+def test_masses_that_collide_hide_no_enhancement():
+    """The first spring sees 3000 P. The support, which feels 1 to 10 P, is no herald of a wave."""
+    pulse = (5e6, 1.2 * foam.eq30(5e6))
+    row = evaluate_at(
+        chain("plastic", 10, *PLASTIC), *pulse, ("enhancement", "peak_stress"), ("fully_crushed", "enhanced")
+    )
+    assert row["status"] == "decided"
+    assert row["enhanced"] == row["fully_crushed"] == 1.0
+    assert 1.0 < row["enhancement"] < 0.01 * row["peak_stress"] / 5e6
 
 
 def test_chains_while_the_pulse_acts():
