@@ -102,6 +102,8 @@ def _execute(name: str, arguments: list[str]) -> int:
     import warnings
 
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy starts a pool for matrices, of which there are none here
+    # pydantic would look through every installed package for plugins of its own, which a deck has no use for.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # What is left at the end goes with the process: Python need not look through it for garbage, which takes long.
     atexit.register(gc.freeze)
     previous = _interrupt_on_sigterm()
