@@ -23,6 +23,9 @@ _COMMA_PAIR = re.compile(r"[^\s,]*,[^\s,]+\s+[^\s,]*,[^\s,]+")
 _NUMERIC = re.compile(r"[+-]?\.?\d|[+-]?(?:nan|inf)", re.IGNORECASE)
 
 
+_ABOVE = "; above the numbers only a header and a row of units may stand, or lines that begin with #"
+
+
 class TableError(UnitError):
     """A table that cannot be used; the text names the file and the row."""
 
@@ -88,7 +91,10 @@ def read_rows(
         if len(cells) != 2:
             raise TableError(f"{place}: {len(cells)} columns where there must be 2")
         texts = [f"{cell} {unit}" if unit else _number(cell) for cell, unit in zip(cells, given, strict=True)]
-        rows.append((place, _pair(texts, units, place)))
+        try:
+            rows.append((place, _pair(texts, units, place)))
+        except TableError as error:
+            raise TableError(f"{error}{'' if rows else _ABOVE}") from None
         if len(rows) > LONGEST_TABLE:
             raise TableError(f"{name} has more than {LONGEST_TABLE} rows")
     if not rows:

@@ -342,3 +342,17 @@ def test_noise_does_not_make_steps_in_a_table():
     plateau = found.points[(found.points[:, 0] > 0.05) & (found.points[:, 0] < 0.6)]
     assert len(plateau) < 8  # without noise 2
     assert len(found.points) < 25
+
+
+def test_what_a_machine_writes_above_the_header_is_named(tmp_path):
+    rows = "\n".join(f"{e:.4f};{s / 1e6:.4f}" for e, s in zip(*rising(30), strict=True))
+    path = tmp_path / "machine.csv"
+    path.write_text(f"Sample;3\nstrain;stress [MPa]\n{rows}\n")
+    with pytest.raises(
+        DeckError, match=r"line 1: 'Sample' is not a number.* only a header and a row of units may stand"
+    ):
+        fit.read_curve(path)
+    path.write_text(f"# Sample;3\nstrain;stress [MPa]\n{rows}\n0.9;x\n")
+    with pytest.raises(DeckError, match="line 32: 'x") as caught:
+        fit.read_curve(path)
+    assert "header" not in str(caught.value)
