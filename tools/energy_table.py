@@ -32,7 +32,8 @@ def main(argv=None):
     print(f"{'run':<{wide}}" + "".join(f"{name:>22}" for name in COLUMNS))
     for path, (*energies, share, imbalance) in rows:
         cells = [f"{value / 1e3:>22.6g}" for value in energies]
-        print(f"{path:<{wide}}" + "".join(cells) + f"{100 * share:>20.4g} %" + f"{imbalance:>22.1e}")
+        part = f"{100 * share:>20.4g} %" if share == share else f"{'–':>22}"
+        print(f"{path:<{wide}}" + "".join(cells) + part + f"{imbalance:>22.1e}")
 
 
 if __name__ == "__main__":

@@ -78,10 +78,11 @@ def test_warnings_are_for_those_who_ask(monkeypatch, wanted, shown):
     assert bool(seen) == shown
 
 
-def test_the_package_runs_as_a_module(monkeypatch, capsys):
+@pytest.mark.parametrize("name", ["hydro1d", "hydro1d.cli"])
+def test_the_package_runs_as_a_module(monkeypatch, capsys, name):
     monkeypatch.setattr(sys, "argv", ["hydro1d", "--version"])
     with pytest.raises(SystemExit) as leaving:
-        runpy.run_module("hydro1d.cli", run_name="__main__")
+        runpy.run_module(name, run_name="__main__")
     assert leaving.value.code == 0 and capsys.readouterr().out.startswith("hydro1d ")
 
 

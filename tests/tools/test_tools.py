@@ -171,6 +171,14 @@ def test_track_front_follows_the_front_of_the_history(result):
         assert float(row["strain_behind"]) == pytest.approx(0.91, abs=0.02)
 
 
+def test_energy_table_of_a_gas_that_only_expands(tmp_path):
+    import hydro1d
+
+    hydro1d.run(TOOLS.parent / "cases" / "sod.toml", tmp_path / "sod.h5")
+    line = tool("energy_table", tmp_path / "sod.h5").stdout.splitlines()[1]
+    assert line.split()[-2] == "–" and "nan" not in line
+
+
 def test_jump_check_holds_a_steady_front(result):
     note, more, head, *rows, median = tool("jump_check", result).stdout.splitlines()
     assert "good for a steady front" in note and '"unsteady" rows' in more
