@@ -111,6 +111,7 @@ def test_equation_38_fits_equation_39_as_closely_as_measured():
         (lambda: EPH(DENSITY, MODULUS, PLATEAU, 2 * MODULUS), "hardening_modulus"),
         (lambda: RPH(DENSITY, 1e6, PLATEAU, 0.3e6), "modulus"),
         (lambda: Table(DENSITY, MODULUS, (0.1, 0.5), (1e6, 2e6)), "stresses"),
+        (lambda: Table(DENSITY, MODULUS, (0.05, 0.5), (1.1e6 * (1.0 + 1e-6), 2e6)), "stresses"),
         (lambda: Table(DENSITY, MODULUS, (0.5, 0.1), (11e6, 12e6)), "strains"),
         (lambda: UserCurve(DENSITY, MODULUS, PLATEAU, lambda e: 2 * PLATEAU + 0 * e), "plastic"),
     ],
