@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from hydro1d import tables
 from hydro1d.cli import main
 from hydro1d.cli.new import CASES
 from hydro1d.deck import load_deck
@@ -92,6 +93,21 @@ def test_a_curve_file_without_a_unit_that_looks_like_mpa_is_noted(tmp_path, head
     deck = load_deck(FOAM, ["material.foam.curve=curve.csv", f"material.foam.modulus={modulus}"], folder=tmp_path)
     assert bool(deck.notes) == noted
     assert not noted or "the end of material.foam.curve is 5 Pa" in deck.notes[0]
+
+
+def test_a_curve_file_that_changes_between_two_looks_is_no_matter(tmp_path, monkeypatch):
+    real, looks = tables.read_rows, []
+
+    def read_rows(*arguments):
+        looks.append(arguments)
+        if len(looks) > 1:
+            raise tables.TableError("curve.csv cannot be read")
+        return real(*arguments)
+
+    monkeypatch.setattr(tables, "read_rows", read_rows)
+    (tmp_path / "curve.csv").write_text("0.04,0.82\n0.65,1.2\n0.86,5\n")
+    deck = load_deck(FOAM, ["material.foam.curve=curve.csv", "material.foam.modulus=100"], folder=tmp_path)
+    assert len(looks) == 2 and "curve" not in "".join(deck.notes)
 
 
 def test_many_are_told_in_one_line():
