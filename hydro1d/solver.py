@@ -312,6 +312,9 @@ def frame(column: Column, program: Program, state: State) -> Frame:
     jump = velocity[:-1] - velocity[1:] + centred[:-1] - centred[1:]
     scratch.gained += 0.5 * half * state.force * jump / column.zone_mass
     stress = program.stress(scratch)
+    density = np.concatenate([np.full(slab.zones, slab.law.density) for slab in column.slabs])
+    with np.errstate(divide="ignore"):  # a zone of a run that broke down may have no thickness left
+        density /= 1.0 - strain
     fields = {
         "position": column.node_coordinate + state.displacement,
         "velocity": centred,
@@ -319,7 +322,7 @@ def frame(column: Column, program: Program, state: State) -> Frame:
         "strain": strain,
         "stress": stress,
         "viscosity": state.force - stress,
-        "density": np.concatenate([np.full(s.zones, s.law.density) for s in column.slabs]) / (1.0 - strain),
+        "density": density,
         "internal_energy": scratch.energy + scratch.gained,
         "largest_strain": state.material[0].copy(),
     }
