@@ -179,11 +179,17 @@ def fronts(a: Arrays) -> tuple[float, float]:
     proximal, distal = math.nan, math.nan
     if left < right:
         if left > 0 and can_crush(a, left - 1):
-            start, end = max(left - WINDOW, 0), min(left + WINDOW, right)
-            proximal = a.coordinate[start] + crushed_length(a, start, end, start, end - 1)
+            first, beyond = zones_of_layer(a, left)
+            start, end = max(left - WINDOW, first), min(left + WINDOW, beyond, right)
+            proximal = a.coordinate[start]
+            if start < left:
+                proximal += crushed_length(a, start, end, start, end - 1)
         if right < zones and can_crush(a, right):
-            start, end = max(right - WINDOW, left), min(right + WINDOW, zones)
-            distal = a.coordinate[end] - crushed_length(a, start, end, end - 1, start)
+            first, beyond = zones_of_layer(a, right - 1)
+            start, end = max(right - WINDOW, first, left), min(right + WINDOW, beyond)
+            distal = a.coordinate[end]
+            if right < end:
+                distal -= crushed_length(a, start, end, end - 1, start)
     return proximal, distal
 
 
@@ -199,10 +205,22 @@ def can_crush(a: Arrays, zone: int) -> bool:
 
 def crushed_strain_of(a: Arrays, zone: int) -> float:
     """`crushed_strain` of the layer that a zone belongs to."""
+    return crushed_strain(offset(a.numbers, layer_of(a, zone) * NUMBERS))
+
+
+def layer_of(a: Arrays, zone: int) -> int:
+    """Which layer a zone belongs to."""
     layer = a.layer_count - 1
     while a.layers[layer * LAYER + FIRST_ZONE] > zone:
         layer -= 1
-    return crushed_strain(offset(a.numbers, layer * NUMBERS))
+    return layer
+
+
+def zones_of_layer(a: Arrays, zone: int) -> tuple[int, int]:
+    """First zone of the layer that a zone belongs to, and the one beyond its last: strains are compared within one layer."""
+    layer = layer_of(a, zone)
+    first = a.layers[layer * LAYER + FIRST_ZONE]
+    return first, first + a.layers[layer * LAYER + ZONES]
 
 
 def crushed_length(a: Arrays, start: int, end: int, behind: int, ahead: int) -> float:
