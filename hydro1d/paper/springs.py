@@ -117,9 +117,10 @@ def _draw_5(work: Workshop, table: Table) -> None:
     caption = (
         "Mass–spring chain on Eq. 38, viscosity off. Squares: every spring past εD; triangles: support stress above P. "
         "Reversible springs lie in the paper's window (τd 0.25–1.75), and for ten masses both criteria nearly coincide, "
-        "as the paper says. The solver's chain has half a mass at its loaded end; black: equal masses. Plastic springs lie far to the right of it. With more masses the support stress crosses P "
-        "more than once as the pulse grows longer; the lowest crossing that the scan met is shown, and none where "
-        "it is above P all over the bracket. Crosses: equal masses, the duration from which on every pulse crushes."
+        "as the paper says. The solver's chain has half a mass at its loaded end; black: equal masses. Plastic springs "
+        "lie far to the right of it. With more masses the support stress crosses P more than once as the pulse grows "
+        "longer; the lowest crossing that the scan met is shown, and none where it is above P all over the bracket. "
+        "Crosses: equal masses, the duration from which on every pulse crushes."
     )
     work.picture("fig05", "Fig. 5: mass–spring boundary", caption, figure, table)
 
