@@ -165,3 +165,8 @@ def test_no_file(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(FileProblem, match="cannot be read"):
         load_deck(name)
+
+
+def test_a_sweep_is_no_deck():
+    with pytest.raises(DeckError, match="the deck is a sweep, not a deck; hydro1d sweep takes it"):
+        load_deck('deck = "pulse.toml"\nquantities = ["peak_support_stress"]\n')
