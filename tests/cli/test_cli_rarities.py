@@ -188,7 +188,7 @@ def test_a_sweep_without_dask_says_what_to_install(tmp_path, capsys, monkeypatch
     from hydro1d.cli import sweep
 
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(Exception, match=r"pip install 'hydro1d\[sweep\]'"), sweep._executor("tcp://x:1"):
+    with pytest.raises(Exception, match=r"pip install 'hydro1d\[sweep\]'"), sweep.executor_at("tcp://x:1"):
         pass
 
 
