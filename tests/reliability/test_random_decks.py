@@ -51,9 +51,9 @@ def test_sixty_random_decks():
     assert words["complete"] > 40
 
 
-@pytest.mark.parametrize("seed", [1896, 5009, 7368])
+@pytest.mark.parametrize("seed", [1338, 1896, 5009, 7368])
 def test_long_runs_of_small_gains_keep_their_energy(seed):
-    """A steady load on steady steps, a gas and a crushed foam that gain little in a million steps: plain sums lose 1e-12."""
+    """A light end in flight, a steady load, a gas and a crushed foam that gain little in a million steps: all lost 1e-12 once."""
     assert judge(seed) == "complete"
 
 
