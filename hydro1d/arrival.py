@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from hydro1d.boundaries.free import Free
-from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.laws.base import Foam
 from hydro1d.verdict import ends_of
 
@@ -37,7 +35,7 @@ def arrival_of(deck: Deck) -> Arrival | None:
     ends = ends_of(deck)
     load, support = getattr(deck, ends.loaded), getattr(deck, ends.support)
     still = not any(layer.velocity for layer in deck.layers) and not _acts(support)
-    if not (_acts(load) and still) or isinstance(support, Free | Transmitting):
+    if not (_acts(load) and still) or not support.supports:
         return None
     speeds = [elastic_speed(layer.law) for layer in deck.layers]
     if not all(0.0 < speed < math.inf for speed in speeds):

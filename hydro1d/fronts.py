@@ -9,6 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from hydro1d.store import Run
 
+FRONTS = {"front_position": 1.0, "distal_front_position": -1.0}  # which way each runs
 STRAYS = 0.01  # of the column: a measure that goes back or leaps so far is none of the front
 WAVERS = 3.0  # zones; less than that it wavers
 LEAST_CRUSHED = 0.05  # of the largest strain anywhere: a layer with less is not crushed
@@ -20,7 +21,7 @@ def front_path(run: Run, name: str) -> np.ndarray:
     The measure of a front takes in a dozen zones on either side. Where two fronts come nearer than that, or a front dies or
     starts at an interface, it wavers by a zone or two, or strays; here the front waits until the measure has come past it.
     """
-    nodes, time, sign = run["node_coordinate"], run.history["time"], 1.0 if name == "front_position" else -1.0
+    nodes, time, sign = run["node_coordinate"], run.history["time"], FRONTS[name]
     strays = max(STRAYS * (nodes[-1] - nodes[0]), WAVERS * float(np.diff(nodes).max()))
     where = np.where(_is_possible(run, run.history[name], sign), run.history[name], np.nan)
     farthest = sign * np.fmax.accumulate(sign * where)
@@ -59,11 +60,10 @@ def crushed_zones(run: Run) -> np.ndarray:
 
 def front_arrival(run: Run, name: str, position: float) -> float:
     """When (s) a front has come to a Lagrangian position (m); NaN where it never does: where the other front was before it."""
-    sign, time = 1.0 if name == "front_position" else -1.0, run.history["time"]
-    path = front_path(run, name)
-    known = np.isfinite(path)
-    times, places = time[known], sign * path[known]
-    end = _meeting(run)
+    sign, time, paths = FRONTS[name], run.history["time"], {front: front_path(run, front) for front in FRONTS}
+    known = np.isfinite(paths[name])
+    times, places = time[known], sign * paths[name][known]
+    end = _meeting(run, paths)
     if end is not None and known.any():
         times, places = np.append(times, end[0]), np.append(places, sign * end[1])
     passed = places >= sign * position
@@ -76,19 +76,16 @@ def front_arrival(run: Run, name: str, position: float) -> float:
     return float(times[k - 1] + share * (times[k] - times[k - 1]))
 
 
-def _meeting(run: Run) -> tuple[float, float] | None:
+def _meeting(run: Run, paths: dict[str, np.ndarray]) -> tuple[float, float] | None:
     """When and where the fronts that crushed all of the column met: at its end, if there was one alone. None if none did."""
     full = run.history["uncrushed_fraction"] <= 0.0
     if not full.any():
         return None
     crushed = np.flatnonzero(crushed_zones(run))
-    nodes, last = run["node_coordinate"], []
-    for name, end in (("front_position", nodes[crushed[-1] + 1]), ("distal_front_position", nodes[crushed[0]])):
-        path = front_path(run, name)
-        known = path[np.isfinite(path)]
-        last.append((float(known[-1]) if len(known) else None, float(end)))
-    (proximal, right), (distal, left) = last
-    time = float(run.history["time"][int(np.argmax(full))])
-    if proximal is None or distal is None:
-        return time, right if distal is None else left
-    return time, 0.5 * (proximal + distal)
+    nodes, time = run["node_coordinate"], float(run.history["time"][int(np.argmax(full))])
+    proximal, distal = (path[np.isfinite(path)] for path in paths.values())
+    if not len(distal):
+        return time, float(nodes[crushed[-1] + 1])
+    if not len(proximal):
+        return time, float(nodes[crushed[0]])
+    return time, float(0.5 * (proximal[-1] + distal[-1]))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from hydro1d.boundaries.pulses.base import Pulse
+from hydro1d.fronts import FRONTS
 from hydro1d.plugins import builtin_names, find
 from hydro1d.variables import HERALD
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 ACTS = 0.01  # of its peak: a smaller pressure is over
 LATELY = 0.02  # of the time calculated, at the end: what changes there is still going on
 RISES = 1e-3  # of the peak on the support, lately
-FAINT = 1e-2  # of the largest stress: a peak on the support that is less and still rises is a herald
+FAINT = 1e-2  # of the applied or, without one, the largest stress: a peak on the support that is less and still rises is a herald
 RUNS = 1e-3  # of the column's length, lately: a front that runs
 NOT_REACHED = "the wave has not reached the support; attenuated or enhanced is not decided yet"
 
@@ -101,8 +102,13 @@ def ends_of_data(data: Mapping[str, Any]) -> Ends:
     ends = {side: data.get(side, {}) for side in ("left", "right")}
     return _ends(
         {side: bool(end.get("pulse")) for side, end in ends.items()},
-        {side: end.get("type") in ("striker", "piston") for side, end in ends.items()},
+        {side: _is_mover(end.get("type")) for side, end in ends.items()},
     )
+
+
+def _is_mover(boundary: Any) -> bool:
+    """Whether one of hydro1d's own boundaries is given a velocity."""
+    return boundary in builtin_names("boundary") and "velocity" in find("boundary", boundary).model_fields
 
 
 def _ends(pushed: Mapping[str, bool], moved: Mapping[str, bool]) -> Ends:
@@ -144,13 +150,6 @@ def _pending(run: Run, deck: Deck | None, ends: Ends, arrived: bool) -> list[str
 
 def _is_crushing(run: Run) -> bool:
     """Whether a compaction front has moved on lately."""
-    history, lately, reach = (
-        run.history,
-        _lately(run),
-        RUNS * float(run["node_coordinate"][-1] - run["node_coordinate"][0]),
-    )
-    fronts = (
-        (name, sign) for name, sign in (("front_position", 1.0), ("distal_front_position", -1.0)) if name in history
-    )
-    moved = [sign * float(history[name][-1] - history[name][lately]) for name, sign in fronts]
-    return any(distance > reach for distance in moved)
+    history, nodes, lately = run.history, run["node_coordinate"], _lately(run)
+    moved = [sign * (history[name][-1] - history[name][lately]) for name, sign in FRONTS.items() if name in history]
+    return any(distance > RUNS * (nodes[-1] - nodes[0]) for distance in moved)

@@ -35,9 +35,13 @@ class End(NamedTuple):
 
 
 class Boundary(Component):
-    """Base of all boundaries. `memory` names the variables that a boundary keeps, with units, for the history."""
+    """Base of all boundaries. `memory` names the variables that a boundary keeps, with units, for the history.
+
+    `supports` is whether what stands on the end bears a load that arrives there, as a wall does.
+    """
 
     memory: ClassVar[dict[str, str]] = {}
+    supports: ClassVar[bool] = True
 
     def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Advance the end node over one step.

@@ -12,6 +12,8 @@ class Transmitting(Boundary):
     is at rest: a layer that moves from the start feels Z v from the start.
     """
 
+    supports = False
+
     def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """The impedance force is centred in time, hence the implicit division."""
         damping = 0.25 * (end.step_before + end.step_after) * end.impedance / end.mass
