@@ -5,6 +5,7 @@ import json
 import math
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,28 +15,8 @@ from hydro1d.errors import DeckError, FileProblem, Interrupted
 from hydro1d.sweep import Parameter, Sweep, load_sweep, parse_quantity, read_table, run_sweep
 from hydro1d.sweep.base import threads_here
 
-DECK = """
-[material.foam]
-law = "epph"
-density = "51.6 kg/m^3"
-modulus = "22 MPa"
-plateau_stress = "0.8 MPa"
-densification_strain = 0.689
-shock_slope = "0.00105 s/m"
-[[layer]]
-material = "foam"
-thickness = "1 m"
-zones = 40
-[left]
-type = "pressure"
-pulse = "rectangular"
-peak = "3.6 MPa"
-duration = "1.53 ms"
-[right]
-type = "wall"
-[time]
-end = "7 ms"
-"""
+MAIN = Path(__file__).parents[2] / "cases" / "pulse_epph.toml"
+DECK = MAIN.read_text().replace("zones = 1000", "zones = 40").replace('"8 ms"', '"7 ms"').split("[output]")[0]
 SWEEP = """
 deck = "pulse.toml"
 set = ["layer[0].zones=30"]

@@ -1,6 +1,7 @@
 """Attenuated or enhanced: what a run and a deck say of it, and when it is not decided yet."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,28 +12,8 @@ from hydro1d.arrival import arrival_of, elastic_speed, front_speed
 from hydro1d.cli import main
 from hydro1d.verdict import ends_of, ends_of_data, verdict_of
 
-DECK = """\
-[material.foam]
-law = "epph"
-density = "51.6 kg/m^3"
-modulus = "22 MPa"
-plateau_stress = "0.8 MPa"
-densification_strain = 0.689
-shock_slope = "0.00105 s/m"
-[[layer]]
-material = "foam"
-thickness = "1 m"
-zones = 50
-[left]
-type = "pressure"
-pulse = "rectangular"
-peak = "3.6 MPa"
-duration = "1.53 ms"
-[right]
-type = "wall"
-[time]
-end = "8 ms"
-"""
+MAIN = Path(__file__).parents[2] / "cases" / "pulse_epph.toml"
+DECK = MAIN.read_text().replace("zones = 1000", "zones = 50").split("[output]")[0]
 WAVE = math.sqrt(51.6 / 22e6)  # s, over the metre of the deck
 PISTON = ['left={type="piston", velocity=50}']
 MIRRORED = ['right={type="pressure", pulse="constant", peak=3e6}', 'left={type="wall"}']
