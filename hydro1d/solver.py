@@ -125,7 +125,7 @@ def _first_step(column: Column, program: Program, state: State) -> None:
     """Forces at t = 0 and the step that they allow; the first is shorter by `EASE`, and steps grow from there."""
     stable = math.inf
     for layer, slab in enumerate(column.slabs):
-        out = program.sweep_layer(state, layer, slab.zones, state.force)
+        out = program.sweep_layer(state, layer)
         fastest = march.fastest(state.numbers[layer], out[zone_places.STIFFNESS], out[zone_places.VISCOUS_SPEED])
         stable = min(stable, slab.size / fastest)
         state.ledger[layout.PEAK_STRESS] = max(state.ledger[layout.PEAK_STRESS], out[zone_places.STRESS])
@@ -310,7 +310,7 @@ def frame(column: Column, program: Program, state: State) -> Frame:
         nodes = state.displacement[slab.first : slab.first + slab.zones + 1]
         strain[slab.part] = (nodes[:-1] - nodes[1:]) / slab.size
     jump = velocity[:-1] - velocity[1:] + centred[:-1] - centred[1:]
-    scratch.gained += 0.5 * half * state.force * jump / column.zone_mass
+    scratch.gained[...] += 0.5 * half * state.force * jump / column.zone_mass
     stress = program.stress(scratch)
     density = np.concatenate([np.full(slab.zones, slab.law.density) for slab in column.slabs])
     with np.errstate(divide="ignore"):  # a zone of a run that broke down may have no thickness left

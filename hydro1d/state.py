@@ -10,9 +10,9 @@ from hydro1d.kernels import layout
 from hydro1d.kernels.memory import placed
 
 
-@dataclass
+@dataclass(frozen=True)
 class State:
-    """All that changes with time.
+    """All that changes with time. The arrays stay where they are, their numbers change.
 
     ledger: clock, sums and maxima, see `kernels.layout`. velocity (zones + 3,) at half a step before the next kick, with a
     ghost at each end; displacement (zones + 1,); energy (zones,) specific, at the last settling, and
@@ -36,7 +36,7 @@ class State:
         # The node pass goes through displacements and velocities in whole cache lines from node 1 on.
         starts = {"velocity": 2, "displacement": 1, "gained": 0, "force": 0, "material": 0, "viscosity": 0, "energy": 0}
         for place, (name, first) in enumerate(starts.items()):
-            setattr(self, name, placed(getattr(self, name), place, first))
+            object.__setattr__(self, name, placed(getattr(self, name), place, first))
 
     def arrays(self) -> dict[str, np.ndarray]:
         """Every array by name, as a checkpoint stores them."""

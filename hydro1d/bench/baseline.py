@@ -42,7 +42,7 @@ class Baseline:
         push[1:] += s.force
         velocity = before + kick * push / mass
         velocity[-1] = 0.0
-        s.displacement += step * velocity
+        s.displacement[...] += step * velocity
         self._zones(s, before, velocity, step, kick)
         s.velocity[1:-1] = velocity
         s.velocity[0], s.velocity[-1] = velocity[1], velocity[-2]
@@ -54,7 +54,7 @@ class Baseline:
         linear, smooth_linear, quadratic = self.column.viscosity.coefficients()
         jump = velocity[:-1] - velocity[1:]
         strain = (s.displacement[:-1] - s.displacement[1:]) / size
-        s.gained += 0.5 * kick * s.force * (before[:-1] - before[1:] + jump) / (size * law.density)
+        s.gained[...] += 0.5 * kick * s.force * (before[:-1] - before[1:] + jump) / (size * law.density)
         top = s.material[0] = np.maximum(s.material[0], strain)
         over = np.maximum(top - law.densification_strain, 0.0)
         inverse = 1.0 / (over + law.densification_strain - law.yield_strain)

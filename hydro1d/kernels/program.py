@@ -50,6 +50,7 @@ class Program:
         self.probe_rows = np.zeros((row_capacity + 1, len(column.probes), 4))
         self._scratch: State | None = None
         self._bind()
+        self._known: list[tuple[State, layout.Arrays]] = []
 
     def _bind(self) -> None:
         slabs = self.column.slabs
@@ -77,13 +78,7 @@ class Program:
         ledger = state.ledger
         ledger[layout.STOP], ledger[layout.STEPS], ledger[layout.CADENCE] = stop, steps, self.column.history_every
         ledger[layout.ROW_AT_STOP], ledger[layout.ROWS] = row_at_stop, self.row_capacity
-        arrays = (
-            ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory, self.out,
-            state.velocity, self.spare, state.displacement, state.energy, state.gained, state.force, state.viscosity,
-            state.material, self.curve, self.tangents, self.stiffnesses, self.speeds, self.column.node_mass,
-            self.inverse_mass, self.column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
-        )  # fmt: skip
-        self._march(*_pointers(arrays), len(self.column.slabs), self.column.zones, self.columns)
+        self._march(*self._arrays(state))
         return int(ledger[layout.STATUS])
 
     def recorded(self, state: State) -> tuple[np.ndarray, np.ndarray]:
@@ -99,33 +94,57 @@ class Program:
             parts.append(boundary.report(memory, coordinates[k], sign) if boundary.memory else memory)
         return np.concatenate(parts, axis=1), self.probe_rows[:count].copy()
 
-    def sweep_layer(self, state: State, layer: int, zones: int, force: np.ndarray) -> np.ndarray:
-        """Call a layer's zone kernel on the state as it stands; negative ``zones`` observes the stress into ``force``."""
-        first = self.column.slabs[layer].first
-        state.numbers[layer, zone_places.AFRESH] = 1.0
-        arrays = (
-            self.parameters[self.layers[layer, layout.PARAMETERS] :], state.numbers[layer], state.velocity[first:],
-            state.velocity[first:], state.displacement[first:], state.energy[first:], state.gained[first:], force[first:],
-            state.viscosity[first:], state.material.reshape(-1)[first:], self.curve[first:], self.tangents[first:],
-            self.stiffnesses[first:], self.speeds[first:],
-        )  # fmt: skip
-        out = np.zeros(layout.OUT)
-        self._zone_functions[layer](*_pointers(arrays), zones, self.column.zones, *_pointers((out,)))
-        return out
+    def sweep_layer(self, state: State, layer: int) -> np.ndarray:
+        """Call a layer's zone kernel on the state as it stands; what it finds is valid until the next call."""
+        return self._sweep(state, layer, self.column.slabs[layer].zones, self._arrays(state).force)
 
     def stress(self, state: State) -> np.ndarray:
         """Stress of every zone, Pa (zones,), without viscosity."""
         stress = np.zeros(self.column.zones)
         for layer, slab in enumerate(self.column.slabs):
-            self.sweep_layer(state, layer, -slab.zones, stress)
+            self._sweep(state, layer, -slab.zones, _place(stress))  # negative: observes only
         return stress
 
+    def _sweep(self, state: State, layer: int, zones: int, force: Any) -> np.ndarray:
+        a, first = self._arrays(state), self.column.slabs[layer].first
+        state.numbers[layer, zone_places.AFRESH] = 1.0
+        parameters = _onward(a.parameters, int(self.layers[layer, layout.PARAMETERS]))
+        numbers = _onward(a.numbers, layer * layout.NUMBERS)
+        arrays = (
+            a.velocity, a.velocity, a.displacement, a.energy, a.gained, force, a.viscosity, a.state, a.curve, a.tangents,
+            a.stiffnesses, a.speeds,
+        )  # fmt: skip
+        here = (_onward(place, first) for place in arrays)
+        self._zone_functions[layer](parameters, numbers, *here, zones, self.column.zones, a.out)
+        return self.out
 
-def _pointers(arrays: tuple) -> tuple:
-    """Addresses of the arrays, or, where kernels run as Python, the arrays as a pointer sees them: flat."""
+    def _arrays(self, state: State) -> layout.Arrays:
+        """Where everything is, found once for a state: for a frame this would take longer than its numbers do."""
+        for known, arrays in self._known:
+            if known is state:
+                return arrays
+        column = self.column
+        own = (
+            state.ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory,
+            self.out, state.velocity, self.spare, state.displacement, state.energy, state.gained, state.force,
+            state.viscosity, state.material, self.curve, self.tangents, self.stiffnesses, self.speeds, column.node_mass,
+            self.inverse_mass, column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
+        )  # fmt: skip
+        arrays = layout.Arrays._make([*map(_place, own), len(column.slabs), column.zones, self.columns])
+        self._known = [*self._known[-1:], (state, arrays)]
+        return arrays
+
+
+def _place(array: Any) -> Any:
+    """Where an array begins or, where kernels run as Python, the array as a pointer sees it: flat."""
     if build.interpreted():
-        return tuple(array.reshape(-1) if isinstance(array, np.ndarray) else array for array in arrays)
-    return tuple(array.__array_interface__["data"][0] for array in arrays)  # a third of the time of `ctypes.data`
+        return array.reshape(-1) if isinstance(array, np.ndarray) else array
+    return array.ctypes.data
+
+
+def _onward(place: Any, values: int) -> Any:
+    """The place so many values on."""
+    return place[values:] if build.interpreted() else place + 8 * values
 
 
 def _remembered(column: Column) -> int:

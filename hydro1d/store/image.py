@@ -7,7 +7,6 @@ import os
 import zlib
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +16,10 @@ from h5py import h5d
 
 import hydro1d
 from hydro1d.store import hdf5
+from hydro1d.store.content import Content, More
 from hydro1d.store.deflate import LEVEL
 from hydro1d.store.files import Temporary
-from hydro1d.store.layout import MAXIMA, SCHEMA_VERSION, STATIC, Field, Layout
+from hydro1d.store.layout import MAXIMA, SCHEMA_VERSION, STATIC, Field
 from hydro1d.store.records import Block, Table
 from hydro1d.store.seal import make_seal
 
@@ -28,26 +28,6 @@ MARGIN = 1 << 20  # for the structure itself, when space is claimed
 _AUXILIARY = {"zone": "zone_coordinate zone_layer", "node": "node_coordinate", "layer": "layer_name"}
 
 Tails = list[tuple[Block | None, list[int]]]
-
-
-@dataclass(frozen=True)
-class Content:
-    """What is known from the start."""
-
-    layout: Layout
-    deck_text: str
-    resolved: dict[str, Any]
-    attributes: dict[str, Any]
-    created: str
-
-
-@dataclass(frozen=True)
-class More:
-    """What is known when a file is completed."""
-
-    attributes: dict[str, Any]
-    maxima: dict[str, np.ndarray] = field(default_factory=dict)
-    state: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 def opened(path: Path) -> AbstractContextManager[h5py.File]:

@@ -19,16 +19,21 @@ _PARALLEL = 1 << 20  # bytes that are worth starting threads for
 
 @dataclass
 class Block:
-    """Consecutive rows of all fields of a table: as numbers, or compressed, one list of pieces per field."""
+    """Consecutive rows of all fields of a table: as numbers, or compressed, one list of pieces per field.
+
+    taken: a thread compresses it, or will.
+    """
 
     start: int
     rows: int
     values: np.ndarray | None
     pieces: list[list[bytes]] = field(default_factory=list)
+    taken: bool = False
 
     def nbytes(self) -> int:
         """Memory held."""
-        held = 0 if self.values is None else self.values.nbytes
+        values = self.values  # which a thread may be done with any time
+        held = 0 if values is None else values.nbytes
         return held + sum(len(piece) for pieces in self.pieces for piece in pieces)
 
 
@@ -117,6 +122,14 @@ class Table:
         """First column of each chunk of a row of chunks."""
         return list(range(0, self.tail[0], self.columns[0])) if self.tail else [0]
 
+    def compress_block(self, block: Block) -> None:
+        """Compress a full block; its numbers are given up."""
+        pieces = []
+        for index in range(len(self.fields)):
+            self.crc[index] = zlib.crc32(_field(block, index).data, self.crc[index])
+            pieces.append(self.compress(block, index))
+        block.pieces, block.values = pieces, None
+
     def compress(self, block: Block, index: int) -> list[bytes]:
         """Chunks of one field of a block as they stand in the file."""
         values = _field(block, index)
@@ -156,6 +169,11 @@ def compress_all(
     return results
 
 
+def processors() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def _waiting(results: list[tuple[Block | None, list[int]]], tables: list[Table]) -> int:
     """Bytes of numbers that are about to be compressed."""
     blocks = [block for table in tables for block in table.blocks] + [tail for tail, _ in results if tail]
@@ -176,7 +194,7 @@ def _job(table: Table, index: int, blocks: list[Block], tail: Block | None, sums
 
 
 def _run(jobs: list[Callable[[], None]], threads: int | None) -> None:
-    count = threads or min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, 8)
+    count = threads or min(processors(), 8)
     if count < 2 or len(jobs) < 2:
         for job in jobs:
             job()

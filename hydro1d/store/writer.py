@@ -21,8 +21,10 @@ from typing import Any
 import numpy as np
 
 from hydro1d.errors import FileProblem
-from hydro1d.store import files, image
+from hydro1d.store import files
+from hydro1d.store.background import Background
 from hydro1d.store.checkpoint import Checkpoint, replay
+from hydro1d.store.content import Content, More
 from hydro1d.store.layout import MAXIMA, Layout
 from hydro1d.store.recorder import Recorder
 from hydro1d.store.records import compress_all
@@ -55,7 +57,7 @@ class Hdf5Sink(Recorder):
     ) -> None:
         super().__init__(layout)
         self.path = files.check_target(path)
-        self.content = image.Content(
+        self.content = Content(
             layout, deck_text, dict(resolved), dict(attributes or {}), datetime.now(UTC).isoformat(timespec="seconds")
         )
         self._flush_seconds, self._buffer_bytes, self._threads = flush_seconds, buffer_bytes, threads
@@ -65,6 +67,7 @@ class Hdf5Sink(Recorder):
         self._maxima: dict[str, np.ndarray] = {}
         self._due = time.monotonic() + flush_seconds
         self._finalizer: weakref.finalize | None = None
+        self._background = Background(threads)
         files.remove_stale(self.path.parent)
 
     @classmethod
@@ -94,6 +97,7 @@ class Hdf5Sink(Recorder):
 
     def recorded(self) -> None:
         """After each record: write when enough has gathered or enough time has passed."""
+        self._background.compress(self.tables)
         self.relieve()
         if time.monotonic() > self._due:
             self.publish_partial()
@@ -155,6 +159,7 @@ class Hdf5Sink(Recorder):
 
     def abort(self) -> None:
         """Remove what is temporary. Partial file and checkpoints stay."""
+        self._background.close()
         if self._finalizer is not None:
             self._finalizer()
         self._working = None
@@ -174,6 +179,9 @@ class Hdf5Sink(Recorder):
 
     def _drain(self) -> None:
         """Move all full blocks to the working file."""
+        from hydro1d.store import image
+
+        self._background.wait()
         compress_all(self.tables, tails=False, threads=self._threads)
         with files.explained("write", self.path):
             if self._working is None:
@@ -198,9 +206,12 @@ class Hdf5Sink(Recorder):
         """Write all records and rename the file to `target`; returns the file's identity."""
         if self._working is not None and any(table.blocks for table in self.tables):
             self._drain()
+        from hydro1d.store import image
+
+        self._background.wait()
         alone = self._working is None
         tails = compress_all(self.tables, tails=True, alone=alone, threads=self._threads)
-        more = image.More({**attributes, "status": status}, self._maxima, dict(state or {}))
+        more = More({**attributes, "status": status}, self._maxima, dict(state or {}))
         temporary = None
         try:
             with files.explained("write", target):

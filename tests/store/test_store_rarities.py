@@ -168,7 +168,9 @@ def test_a_seal_that_lies_about_its_size(tmp_path):
 
 def test_full_blocks_that_wait_while_there_is_a_working_file(tmp_path):
     layout = made_up.layout(profiles=3)  # blocks of three profiles, 11 kB
-    with Hdf5Sink(tmp_path / "a.h5", layout, made_up.DECK_TEXT, made_up.RESOLVED, buffer_bytes=20_000) as sink:
+    with Hdf5Sink(
+        tmp_path / "a.h5", layout, made_up.DECK_TEXT, made_up.RESOLVED, buffer_bytes=20_000, threads=1
+    ) as sink:
         made_up.record(sink, 0, 6)
         assert len(list(tmp_path.glob(".hydro1d-*"))) == 1, "two blocks were more than the buffer takes"
         made_up.record(sink, 6, 10)
