@@ -10,6 +10,7 @@ import contextlib
 import ctypes
 import dis
 import functools
+import gc
 import hashlib
 import os
 import re
@@ -143,7 +144,7 @@ def _compile(kernel: Callable, signature: str) -> bytes:
     letters = {"p": POINTER, "q": types.CPointer(types.int64), "i": types.int64}
     make_compilable(kernel)
     kinds = types.void(*(letters[letter] for letter in signature))
-    with noticed(), only_lowered():
+    with noticed(), only_lowered(), _without_garbage_collection():
         compiled = cfunc(kinds, error_model="numpy", fastmath={"contract", "arcp"}, _nrt=False)(kernel)
     native = compiled.native_name.removeprefix("cfunc.")
     module = llvm.parse_assembly(_with_entry(compiled.inspect_llvm(), native, signature))
@@ -158,6 +159,18 @@ def _compile(kernel: Callable, signature: str) -> bytes:
     passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
     return machine.emit_object(module)
+
+
+@contextlib.contextmanager
+def _without_garbage_collection() -> Iterator[None]:
+    """numba makes millions of objects and keeps most of them: looking for garbage among them is a tenth of its time."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
 
 
 def _with_entry(code: str, native: str, signature: str) -> str:

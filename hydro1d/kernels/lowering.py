@@ -18,13 +18,16 @@ from numba.core.compiler_lock import global_compiler_lock
 from numba.core.cpu import CPUContext
 from numba.extending import (
     intrinsic,
+    lower_builtin,
     make_attribute_wrapper,
     models,
     overload,
     overload_method,
     register_jitable,
     register_model,
+    type_callable,
 )
+from numba.np import linalg
 
 from hydro1d.kernels import primitives
 from hydro1d.parameters import Component, derived
@@ -36,49 +39,51 @@ _INTEGER, _DOUBLE = ir.IntType(64), ir.DoubleType()
 _ANY_ORDER = ("nnan", "nsz")
 
 
-@intrinsic
-def _offset(_typing: Any, pointer: Any, start: Any) -> Any:
-    return pointer(pointer, start), lambda _context, builder, _signature, args: builder.gep(args[0], [args[1]])
+def _primitive(function: Callable, kind: Callable) -> Callable:
+    """Register how LLVM does a primitive: ``kind`` of its arguments' types is the type of its value.
+
+    An `overload` would do, and cost one more function to infer, lower and inline for each.
+    """
+
+    def register(generate: Callable) -> Callable:
+        type_callable(function)(lambda _context: kind)
+        return lower_builtin(function, types.VarArg(types.Any))(generate)
+
+    return register
 
 
-@intrinsic
-def _gather(_typing: Any, pointer: Any, start: Any, stride: Any, count: Any) -> Any:
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer, start, stride, _ = args
-        places = [builder.add(start, builder.mul(stride, ir.Constant(_INTEGER, k))) for k in range(len(count))]
-        values = [builder.load(builder.gep(pointer, [place])) for place in places]
-        return context.make_tuple(builder, signature.return_type, values)
-
-    return types.UniTuple(types.float64, len(count))(pointer, start, stride, count), generate
+@_primitive(primitives.offset, lambda pointer, start: pointer)
+def _offset(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+    return builder.gep(args[0], [args[1]])
 
 
-@intrinsic
-def _scatter(_typing: Any, pointer: Any, start: Any, stride: Any, values: Any) -> Any:
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer, start, stride, packed = args
-        for k in range(len(values)):
-            place = builder.add(start, builder.mul(stride, ir.Constant(_INTEGER, k)))
-            builder.store(builder.extract_value(packed, k), builder.gep(pointer, [place]))
-        return context.get_dummy_value()
-
-    return types.void(pointer, start, stride, values), generate
+@_primitive(primitives.gather, lambda pointer, start, stride, count: types.UniTuple(types.float64, len(count)))
+def _gather(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    pointer, start, stride, _ = args
+    count = len(signature.return_type)
+    places = [builder.add(start, builder.mul(stride, ir.Constant(_INTEGER, k))) for k in range(count)]
+    values = [builder.load(builder.gep(pointer, [place])) for place in places]
+    return context.make_tuple(builder, signature.return_type, values)
 
 
-@intrinsic
-def _larger(_typing: Any, value: Any, other: Any) -> Any:
-    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        exceeds = builder.fcmp_ordered(">", args[1], args[0], flags=_ANY_ORDER)
-        return builder.select(exceeds, args[1], args[0], flags=_ANY_ORDER)
+@_primitive(primitives.scatter, lambda pointer, start, stride, values: types.void)
+def _scatter(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    pointer, start, stride, packed = args
+    for k in range(len(signature.args[3])):
+        place = builder.add(start, builder.mul(stride, ir.Constant(_INTEGER, k)))
+        builder.store(builder.extract_value(packed, k), builder.gep(pointer, [place]))
+    return context.get_dummy_value()
 
-    return types.float64(types.float64, types.float64), generate
+
+@_primitive(primitives.larger, lambda value, other: types.float64)
+def _larger(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+    exceeds = builder.fcmp_ordered(">", args[1], args[0], flags=_ANY_ORDER)
+    return builder.select(exceeds, args[1], args[0], flags=_ANY_ORDER)
 
 
-@intrinsic
-def _accumulate(_typing: Any, total: Any, value: Any) -> Any:
-    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        return builder.fadd(args[0], args[1], flags=("reassoc", "contract", "nsz"))
-
-    return types.float64(types.float64, types.float64), generate
+@_primitive(primitives.accumulate, lambda total, value: types.float64)
+def _accumulate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+    return builder.fadd(args[0], args[1], flags=("reassoc", "contract", "nsz"))
 
 
 @intrinsic
@@ -94,30 +99,10 @@ def _call(_typing: Any, addresses: Any, which: Any, arguments: Any) -> Any:
     return types.void(addresses, which, arguments), generate
 
 
-def _register_primitives() -> None:
-    overload(primitives.offset, jit_options=_LEAN)(
-        lambda pointer, start: lambda pointer, start: _offset(pointer, start)
-    )
-    overload(primitives.larger, jit_options=_LEAN)(lambda value, other: lambda value, other: _larger(value, other))
-    overload(primitives.accumulate, jit_options=_LEAN)(
-        lambda total, value: lambda total, value: _accumulate(total, value)
-    )
-    overload(primitives.gather, jit_options=_LEAN)(
-        lambda pointer, start, stride, count: (
-            lambda pointer, start, stride, count: _gather(pointer, start, stride, count)
-        )
-    )
-    overload(primitives.scatter, jit_options=_LEAN)(
-        lambda pointer, start, stride, values: (
-            lambda pointer, start, stride, values: _scatter(pointer, start, stride, values)
-        )
-    )
-    overload(primitives.call, jit_options=_LEAN)(
-        lambda functions, which, *arguments: lambda functions, which, *arguments: _call(functions, which, arguments)
-    )
-
-
-_register_primitives()
+# numba hands a variable number of arguments only to an overload.
+overload(primitives.call, jit_options=_LEAN)(
+    lambda functions, which, *arguments: lambda functions, which, *arguments: _call(functions, which, arguments)
+)
 
 
 def _executable(context: Any, library: Any, description: Any, environment: Any) -> Any:
@@ -137,8 +122,10 @@ def _pointer(library: Any, name: str) -> int:
 _make_executable, _make_pointer = CPUContext.get_executable, JITCodeLibrary.get_pointer_to_function
 
 # What numba does to each function by itself and `build` does once, for a kernel with all that it calls. numba would
-# vectorise loops with checks for overlap that `build` makes needless, and make machine code that nobody runs.
+# vectorise loops with checks for overlap that `build` makes needless, and make machine code that nobody runs. Nor need
+# scipy be there for the linear algebra that no kernel has; numba imports it to find out.
 _LEFT_OUT = (
+    (linalg, "ensure_blas", lambda: None),
     (CPUCodeLibrary, "_optimize_functions", lambda *_arguments: None),
     (CPUCodeLibrary, "_optimize_final_module", lambda *_arguments: None),
     (JITCodeLibrary, "_finalize_specific", lambda *_arguments: None),

@@ -95,14 +95,18 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
         stride: int, out: Any,
     ) -> None:  # fmt: skip
         law = unpack(parameters)
-        if zones < 0:
-            observe(law, history_count, numbers, velocity, displacement, energy, gained, force, state, -zones, stride)
-            return
         per_size, per_density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY]
+        if zones < 0:
+            for i in range(-zones):
+                strain = (displacement[i] - displacement[i + 1]) * per_size
+                largest = max(state[i], strain)
+                stress, tangent = law.loading(largest)
+                force[i] = law.stress_below(largest - strain, stress, law.slope_below(largest, tangent))
+            return
         top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
         chunk = CHUNK if zones > SHORT else CHUNK // 2
         for start in range(0, zones, chunk):
-            end = min(start + chunk, zones)
+            end = start + chunk if start + chunk < zones else zones
             grown = turned = int(numbers[AFRESH])
             smooth = 0
             for i in range(start, end):
