@@ -11,6 +11,7 @@ import hydro1d
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.pulses.constant import Constant
 from hydro1d.boundaries.wall import Wall
+from hydro1d.kernels import build
 from hydro1d.laws.epph import EPPH
 
 SAME_AS_BUILT_IN = '''
@@ -175,6 +176,10 @@ def own_foam(tmp_path, body):
     return path
 
 
+compiles = pytest.mark.skipif(build.interpreted(), reason="without a compiler there is nothing that it refuses")
+
+
+@compiles
 @pytest.mark.parametrize("body, says", [
     ("return np.interp(strain, [0.0, 1.0], [0.0, self.modulus]), self.modulus", "numba has no interp(float64, list"),
     ("return (far(strain), 0.0) if strain > 2.0 else (self.modulus * strain, self.modulus)", "'far' is not defined"),
@@ -198,6 +203,7 @@ def test_what_numba_cannot_compile_is_said_with_its_line(tmp_path, body, says):
     assert len(first) < 400
 
 
+@compiles
 def test_a_refusal_without_a_line_still_names_the_function(tmp_path):
     path = own_foam(tmp_path, "return [self.modulus * strain, self.modulus]")
     with pytest.raises(hydro1d.DeckError, match=r"mine\.py: Mine\.loading cannot be compiled: it makes an object"):
