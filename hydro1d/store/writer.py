@@ -97,8 +97,8 @@ class Hdf5Sink(Recorder):
 
     def recorded(self) -> None:
         """After each record: write when enough has gathered or enough time has passed."""
+        self.relieve()  # first, for what must leave memory now is compressed by all threads
         self._background.compress(self.tables)
-        self.relieve()
         if time.monotonic() > self._due:
             self.publish_partial()
 
