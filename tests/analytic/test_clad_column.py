@@ -105,6 +105,11 @@ def test_no_plate_is_the_rppl_pulse(pressure, duration, share):
         np.testing.assert_allclose(mine, its, rtol=1e-6)
 
 
+def test_a_table_is_silent_before_its_first_time_and_after_its_last():
+    pulse = TablePulse((1e-3, 2e-3, 3e-3), (1e6, 2e6, 4e6))
+    np.testing.assert_array_equal(pulse.pressure([0.0, 0.999e-3, 1.5e-3, 3e-3, 3.001e-3]), [0.0, 0.0, 1.5e6, 4e6, 0.0])
+
+
 def test_short_strong_pulse_is_a_striker():
     mass, velocity, duration = 20.0, 50.0, 1e-9
     clad = CladColumn(FOAM, mass, RectangularPulse(mass * velocity / duration, duration))

@@ -153,6 +153,10 @@ def test_noh_in_both_coordinates():
     np.testing.assert_array_equal(noh.laboratory([0.19, 0.21], 0.6).density > 2.0, [True, False])
     x = np.linspace(0.01, 1.99, 20)
     np.testing.assert_array_equal(noh.laboratory(noh.position(x, 0.6), 0.6).density, noh(x, 0.6).density)
+    stretch = (noh.position(x + 1e-6, 0.6) - noh.position(x - 1e-6, 0.6)) / 2e-6
+    np.testing.assert_allclose(stretch, noh.density / noh(x, 0.6).density, rtol=1e-8)  # mass between positions
+    beside = noh.position(noh.front_speed * 0.6 * np.array([1.0 - 1e-9, 1.0 + 1e-9]), 0.6)
+    np.testing.assert_allclose(beside, noh.wall_speed * 0.6, rtol=1e-8)  # nothing tears at the shock
     problem = RiemannProblem(Gas(1.0, 1.0, 0.2, 5 / 3), Gas(1.0, -1.0, 0.2, 5 / 3))
     assert problem.star_pressure == pytest.approx(Noh(pressure=0.2).behind.stress, rel=1e-10)
 

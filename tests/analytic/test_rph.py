@@ -65,6 +65,17 @@ def test_conservation(striker, share):
     assert weights @ fields.strain == pytest.approx(float(now.displacement), rel=1e-8)
 
 
+@given(strikers, shares)
+def test_stress_decelerates_what_it_crosses(striker, share):
+    """The crushed block moves as one: its stress falls evenly from the front to the striker, which it decelerates."""
+    now = striker.history(share * striker.stop_time)
+    stress = striker(np.array([0.0, 0.5, 1.0 - 1e-12]) * now.front, share * striker.stop_time).stress
+    mean = 0.5 * (now.left_stress + now.front_stress)
+    np.testing.assert_allclose(stress, [now.left_stress, mean, now.front_stress], rtol=1e-9)
+    deceleration = now.front_stress / (striker.mass + striker.material.density * now.front)
+    assert float(now.left_stress) == pytest.approx(striker.mass * float(deceleration), rel=1e-9)
+
+
 @given(strikers)
 def test_stop(striker):
     end = striker.history(striker.stop_time)
@@ -82,6 +93,7 @@ def test_piston(foam, velocity):
     steady = RPHPiston(foam, velocity, 1.0)
     (front,) = steady.jumps()
     assert max(front.residuals()) < 1e-10
+    assert front.coordinate == 0.0
     t = 0.5 * steady.end_time
     np.testing.assert_allclose(steady([0.49, 0.51], t).velocity, [velocity, 0.0])
     assert float(foam.stress(front.behind.strain)) == pytest.approx(front.behind.stress, rel=1e-10)
