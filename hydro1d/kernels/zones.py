@@ -82,7 +82,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
     return sweep
 
 
-def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
+def foam_kernel(unpack: Callable, _history_count: tuple[float, ...]) -> Callable:
     """The kernel of a `Foam` that unloads on its steep line.
 
     Its loading curve is asked for only where the largest strain grows, and remembered: the curve may cost what it likes, and
@@ -97,6 +97,7 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
         law = unpack(parameters)
         per_size, per_density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY]
         if zones < 0:
+            # `observe` for such a foam: a loop that vectorises, and two functions less to compile.
             for i in range(-zones):
                 strain = (displacement[i] - displacement[i + 1]) * per_size
                 largest = max(state[i], strain)
@@ -106,7 +107,7 @@ def foam_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
         top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
         chunk = CHUNK if zones > SHORT else CHUNK // 2
         for start in range(0, zones, chunk):
-            end = start + chunk if start + chunk < zones else zones
+            end = start + chunk if start + chunk < zones else zones  # min() of integers is a function more to compile
             grown = turned = int(numbers[AFRESH])
             smooth = 0
             for i in range(start, end):

@@ -24,7 +24,7 @@ from hydro1d.paper import (
 from hydro1d.paper.page import write_page
 from hydro1d.paper.studies import studies
 from hydro1d.paper.workshop import QUICK, Size, Workshop
-from hydro1d.sweep.base import threads_here
+from hydro1d.threads import threads_here
 
 PARTS: tuple[tuple[str, Callable[[Workshop], None]], ...] = (
     ("1", curves.figure_1),

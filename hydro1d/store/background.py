@@ -5,7 +5,8 @@ from __future__ import annotations
 import importlib
 from concurrent.futures import Future, ThreadPoolExecutor
 
-from hydro1d.store.records import Block, Table, processors
+from hydro1d.store.records import Block, Table
+from hydro1d.threads import threads_here
 
 
 class Background:
@@ -13,7 +14,7 @@ class Background:
 
     def __init__(self, threads: int | None) -> None:
         """With one of ``threads`` or one processor nothing is done here; `records.compress_all` does it at the end."""
-        self._pool = ThreadPoolExecutor(1) if (threads or processors()) > 1 else None
+        self._pool = ThreadPoolExecutor(1) if (threads or threads_here()) > 1 else None
         self._jobs: list[tuple[Future, Block | None]] = []
         if self._pool is not None:
             self._jobs.append((self._pool.submit(importlib.import_module, "hydro1d.store.image"), None))

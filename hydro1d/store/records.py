@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import zlib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -11,6 +10,7 @@ import numpy as np
 
 from hydro1d.store.deflate import deflate
 from hydro1d.store.layout import Field
+from hydro1d.threads import threads_here
 
 _CHUNK = 65536  # values in a chunk, 512 KB: profiles and time series are both read at a fair speed
 _LONGEST = 16384  # rows in a chunk
@@ -124,11 +124,13 @@ class Table:
 
     def compress_block(self, block: Block) -> None:
         """Compress a full block; its numbers are given up."""
-        pieces = []
-        for index in range(len(self.fields)):
-            self.crc[index] = zlib.crc32(_field(block, index).data, self.crc[index])
-            pieces.append(self.compress(block, index))
-        block.pieces, block.values = pieces, None
+        block.pieces = [self.compress_next(block, index) for index in range(len(self.fields))]
+        block.values = None
+
+    def compress_next(self, block: Block, index: int) -> list[bytes]:
+        """Chunks of one field of the block that follows; the field's checksum runs on."""
+        self.crc[index] = zlib.crc32(_field(block, index).data, self.crc[index])
+        return self.compress(block, index)
 
     def compress(self, block: Block, index: int) -> list[bytes]:
         """Chunks of one field of a block as they stand in the file."""
@@ -169,11 +171,6 @@ def compress_all(
     return results
 
 
-def processors() -> int:
-    """Processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def _waiting(results: list[tuple[Block | None, list[int]]], tables: list[Table]) -> int:
     """Bytes of numbers that are about to be compressed."""
     blocks = [block for table in tables for block in table.blocks] + [tail for tail, _ in results if tail]
@@ -183,8 +180,7 @@ def _waiting(results: list[tuple[Block | None, list[int]]], tables: list[Table])
 def _job(table: Table, index: int, blocks: list[Block], tail: Block | None, sums: list[int]) -> Callable[[], None]:
     def work() -> None:
         for block in blocks:
-            table.crc[index] = zlib.crc32(_field(block, index).data, table.crc[index])
-            block.pieces[index] = table.compress(block, index)
+            block.pieces[index] = table.compress_next(block, index)
         sums[index] = table.crc[index]
         if tail is not None:
             sums[index] = zlib.crc32(_field(tail, index)[: tail.rows].data, sums[index])
@@ -194,7 +190,7 @@ def _job(table: Table, index: int, blocks: list[Block], tail: Block | None, sums
 
 
 def _run(jobs: list[Callable[[], None]], threads: int | None) -> None:
-    count = threads or min(processors(), 8)
+    count = threads or min(threads_here(), 8)
     if count < 2 or len(jobs) < 2:
         for job in jobs:
             job()

@@ -27,7 +27,7 @@ from hydro1d.store.checkpoint import Checkpoint, replay
 from hydro1d.store.content import Content, More
 from hydro1d.store.layout import MAXIMA, Layout
 from hydro1d.store.recorder import Recorder
-from hydro1d.store.records import compress_all
+from hydro1d.store.records import Block, compress_all
 
 KEPT_CHECKPOINTS = 2
 _OVERHEAD = 10.0  # a partial file is written at most every so many times what the last one took
@@ -177,12 +177,16 @@ class Hdf5Sink(Recorder):
     def _temporary(self) -> files.Temporary:
         return files.Temporary(self.path.parent)
 
+    def _compress(self, tails: bool) -> list[tuple[Block | None, list[int]]]:
+        """What the thread beside the loop has not done yet, by all threads; see `compress_all`."""
+        self._background.wait()
+        return compress_all(self.tables, tails, alone=self._working is None, threads=self._threads)
+
     def _drain(self) -> None:
         """Move all full blocks to the working file."""
-        from hydro1d.store import image
+        from hydro1d.store import image  # h5py, which has been imported beside the loop
 
-        self._background.wait()
-        compress_all(self.tables, tails=False, threads=self._threads)
+        self._compress(tails=False)
         with files.explained("write", self.path):
             if self._working is None:
                 self._working = self._temporary()
@@ -206,11 +210,9 @@ class Hdf5Sink(Recorder):
         """Write all records and rename the file to `target`; returns the file's identity."""
         if self._working is not None and any(table.blocks for table in self.tables):
             self._drain()
-        from hydro1d.store import image
+        from hydro1d.store import image  # as in `_drain`
 
-        self._background.wait()
-        alone = self._working is None
-        tails = compress_all(self.tables, tails=True, alone=alone, threads=self._threads)
+        tails = self._compress(tails=True)
         more = More({**attributes, "status": status}, self._maxima, dict(state or {}))
         temporary = None
         try:

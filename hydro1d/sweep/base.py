@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -18,11 +17,6 @@ from hydro1d.sweep.job import Job, override
 from hydro1d.units import UnitError, convert, parse_unit
 
 _NUMBER_UNIT = re.compile(r"\s*[-+]?(?:\d[\d_]*\.?[\d_]*|\.\d[\d_]*)(?:[eE][-+]?\d+)?\s*(\S.*?)?\s*")
-
-
-def threads_here() -> int:
-    """Processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def base_data(base: str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], str]:

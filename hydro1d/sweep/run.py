@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from hydro1d.errors import DeckError, Hydro1dError, Interrupted
-from hydro1d.sweep.base import threads_here
 from hydro1d.sweep.job import Job, Stop, evaluate
 from hydro1d.sweep.journal import Journal
 from hydro1d.sweep.plan import Sweep
 from hydro1d.sweep.quantity import parse_quantity
 from hydro1d.sweep.table import Column, Table
+from hydro1d.threads import threads_here
 
 
 def run_sweep(

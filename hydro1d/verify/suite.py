@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import os
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -11,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
+from hydro1d.threads import threads_here
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.rows import Panel, Row, Table, failure
 
@@ -102,7 +102,7 @@ def run_suite(
     ``done`` is told of every report, in that order, as soon as it and those before it are there.
     """
     reports = []
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+    with ThreadPoolExecutor(workers or threads_here()) as pool:
         for report in _in_order(pool, cases, Effort(full)):
             done(report)
             reports.append(report)

@@ -30,7 +30,7 @@ def compressed(table: Table) -> tuple:
 
 
 def two_processors(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(background, "processors", lambda: 2)
+    monkeypatch.setattr(background, "threads_here", lambda: 2)
 
 
 @pytest.mark.parametrize("interrupted", [False, True])
@@ -86,7 +86,7 @@ def test_what_goes_wrong_is_raised(monkeypatch):
 
 @pytest.mark.parametrize(("threads", "processors"), [(1, 8), (None, 1)])
 def test_nothing_beside_the_loop_where_there_is_one_thread(monkeypatch, threads, processors):
-    monkeypatch.setattr(background, "processors", lambda: processors)
+    monkeypatch.setattr(background, "threads_here", lambda: processors)
     before, table = threading.active_count(), filled(1)
     work = Background(threads)
     work.compress([table])

@@ -13,7 +13,7 @@ import pytest
 from hydro1d.cli import main
 from hydro1d.errors import DeckError, FileProblem, Interrupted
 from hydro1d.sweep import Parameter, Sweep, load_sweep, parse_quantity, read_table, run_sweep
-from hydro1d.sweep.base import threads_here
+from hydro1d.threads import threads_here
 
 MAIN = Path(__file__).parents[2] / "cases" / "pulse_epph.toml"
 DECK = MAIN.read_text().replace("zones = 1000", "zones = 40").replace('"8 ms"', '"7 ms"').split("[output]")[0]
