@@ -105,6 +105,7 @@ def stopped(folder: Path, arguments: list[str], under_way, number: int) -> tuple
         process = subprocess.Popen(
             [sys.executable, "-m", "hydro1d.cli", *arguments],
             cwd=folder, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=errors,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell may start tests with Ctrl-C ignored
         )  # fmt: skip
         end = time.monotonic() + 120.0
         while not under_way() and time.monotonic() < end:
