@@ -13,16 +13,19 @@ import numpy as np
 from hydro1d.boundaries.base import Boundary
 from hydro1d.column import Column, initial_velocities
 from hydro1d.errors import DeckError
-from hydro1d.kernels import layout, march
+from hydro1d.kernels import layout, march, profiles
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.ends import MEMORY
 from hydro1d.kernels.program import Program
 from hydro1d.state import State
+from hydro1d.variables import NODE, ZONE
 
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
-# Cycles. Stretches begin and end at multiples of it: a block that breaks down is tried again from its start, wherever
-# history and checkpoints have cut the run, and a copy of the start is not made for every step.
-BLOCK = 32
+# Cycles. Stretches end at multiples of it: a block that breaks down is tried again from its start, wherever output and
+# checkpoints have cut the run, and a copy of the start is not made for every step.
+BLOCK = layout.CYCLE_BLOCK
+STOPS = 16  # after which a stretch ends: profiles can be compressed while the next is calculated
+MOST_VALUES = 1 << 23  # of the profiles of a stretch; in longer columns it ends at every stop
 RETRIES = 3
 EASE = 1.0 / 16.0  # of the stable step, the first one: what the loads will move is not moving yet
 
@@ -187,73 +190,70 @@ class _Run:
         self.plan, self.progress, self.asked_to_stop = plan, progress, asked_to_stop
         self.loop_seconds = 0.0
         self.saved_cycle, self.saved_time, self.saved_wall = state.cycle, state.time, time.monotonic()
-        events = {*column.profile_times.tolist(), *column.corners, column.end_time}
-        self.events = sorted(event for event in events if state.time < event <= column.end_time)
-        self.profile_times = set(column.profile_times.tolist())
+        profile_times = set(column.profile_times.tolist())
+        times = sorted({*profile_times, *column.corners, column.end_time})
+        self.stops = [(time, time in profile_times) for time in times if state.time < time <= column.end_time]
+        most = STOPS + BLOCK  # for a step passes one at most
+        self.most_stops = most if most * program.profile_length <= MOST_VALUES else 1
         self.start = state.copy()
 
     def open(self) -> None:
         """Hand over the state at t = 0."""
-        self.program.advance(self.state, stop=0.0, steps=0, row_at_stop=True)
-        self.sink.history(*self.program.recorded(self.state))
-        if 0.0 in self.profile_times:
-            self.sink.profile(frame(self.column, self.program, self.state))
+        start = [(0.0, 0.0 in self.column.profile_times)]
+        self.program.advance_past(self.state, start, steps=0, row_at_stop=True)
+        self.hand_over()
 
     def to_end(self) -> Outcome:
-        """Go from event to event."""
-        for event in self.events:
-            status = self.to_event(event)
-            if status == layout.PAUSED:
+        """Stretch by stretch past all stops, looking up in between."""
+        while self.stops:
+            if self.asked_to_stop():
                 return self.outcome("interrupted")
-            if status != layout.REACHED:
+            status = self.stretch()
+            if status > layout.PAUSED:
                 return self.broken(status)
-            if event in self.profile_times:
-                self.sink.profile(frame(self.column, self.program, self.state))
+            self.hand_over()
+            del self.stops[: int(self.state.ledger[layout.PASSED])]
+            if self.progress is not None:
+                self.progress(self.state)
             self.save_if_due()
         return self.outcome("complete")
 
-    def to_event(self, event: float) -> int:
-        """Step to an event, looking up between stretches; PAUSED when asked to stop."""
-        status = layout.PAUSED
-        while status == layout.PAUSED and not self.asked_to_stop():
-            status = self.stretch(event)
-            if status > layout.PAUSED:
-                return status
-            if self.state.ledger[layout.ROWS] > 0:
-                self.sink.history(*self.program.recorded(self.state))
-            if self.progress is not None:
-                self.progress(self.state)
-            if status == layout.PAUSED:  # at an event its profile comes first
-                self.save_if_due()
-        return status
+    def hand_over(self) -> None:
+        """What the last call recorded."""
+        if self.state.ledger[layout.ROWS] > 0:
+            self.sink.history(*self.program.recorded(self.state))
+        for profile in self.program.profiles(self.state):
+            self.sink.profile(frame(self.column, profile))
 
-    def stretch(self, event: float) -> int:
+    def stretch(self) -> int:
         """One call of the time loop. Where it breaks down, the blocks before that stand; the block itself is tried again."""
         start = self.start
         start.assign(self.state)
-        status = self.advance(event, self.steps_per_call())
+        status = self.advance(self.steps_per_call())
         if status > layout.PAUSED:
             sound = (self.state.cycle - 1) // BLOCK * BLOCK - start.cycle  # the last cycle is the one that broke down
             self.state.assign(start)
-            status = self.advance(event, sound) if sound > 0 else self.retry(event, start)
+            status = self.advance(sound) if sound > 0 else self.retry(start)
         return status
 
-    def retry(self, event: float, start: State) -> int:
+    def retry(self, start: State) -> int:
         """A block that broke down, with half the step, a quarter, an eighth."""
         for attempt in range(1, RETRIES + 1):
             self.state.assign(start)
             self.state.ledger[layout.CFL] = self.column.cfl * 0.5**attempt
             self.state.ledger[[layout.NEXT_STEP, layout.FREE_STEP]] *= 0.5**attempt
-            status = self.advance(event, BLOCK - start.cycle % BLOCK)
+            status = self.advance(BLOCK - start.cycle % BLOCK)
             if status <= layout.PAUSED:
                 break
         self.state.ledger[layout.CFL] = self.column.cfl
         return status
 
-    def advance(self, event: float, steps: int) -> int:
+    def advance(self, steps: int) -> int:
         """Call the time loop, on the clock."""
+        stops = self.stops[: self.most_stops]
+        row_at_stop = stops[-1][0] == self.column.end_time
         begun = time.perf_counter()
-        status = self.program.advance(self.state, stop=event, steps=steps, row_at_stop=event == self.column.end_time)
+        status = self.program.advance_past(self.state, stops, steps=steps, row_at_stop=row_at_stop, enough=STOPS)
         self.loop_seconds += time.perf_counter() - begun
         return status
 
@@ -264,6 +264,9 @@ class _Run:
         end = self.state.cycle + length
         if self.plan.cycles is not None:
             end = min(end, (self.state.cycle // self.plan.cycles + 1) * self.plan.cycles + BLOCK - 1)
+        if self.plan.time is not None:
+            steps = (self.saved_time + self.plan.time - self.state.time) / self.state.ledger[layout.NEXT_STEP]
+            end = min(end, self.state.cycle + BLOCK + int(min(max(steps, 0.0), length)))
         return end // BLOCK * BLOCK - self.state.cycle
 
     def save_if_due(self) -> None:
@@ -287,7 +290,8 @@ class _Run:
         """Say which zone broke down, and why."""
         state = self.state
         strain = -np.diff(state.displacement) / np.diff(self.column.node_coordinate)
-        self.sink.profile(frame(self.column, self.program, state))
+        self.program.advance_past(state, [(state.time, True)], steps=0, row_at_stop=False)
+        self.hand_over()
         bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.gained)
         zone = int(np.argmax(bad)) if bad.any() else int(np.argmax(strain))
         cause = {
@@ -300,41 +304,17 @@ class _Run:
         return self.outcome("failed", cause + (law.advice if strain[zone] > 0.95 else ""), zone)
 
 
-def frame(column: Column, program: Program, state: State) -> Frame:
-    """Profiles of the state, all at the time of the stresses: velocities and energies half a kick on."""
-    ledger, half = state.ledger, 0.5 * state.ledger[layout.LAST_STEP]
-    scratch = program.scratch(state)
-    velocity, centred = state.velocity[1:-1].copy(), _centred(program, scratch)
-    strain = np.empty(column.zones)
-    for slab in column.slabs:
-        nodes = state.displacement[slab.first : slab.first + slab.zones + 1]
-        strain[slab.part] = (nodes[:-1] - nodes[1:]) / slab.size
-    jump = velocity[:-1] - velocity[1:] + centred[:-1] - centred[1:]
-    scratch.gained[...] += 0.5 * half * state.force * jump / column.zone_mass
-    stress = program.stress(scratch)
-    density = np.concatenate([np.full(slab.zones, slab.law.density) for slab in column.slabs])
-    with np.errstate(divide="ignore"):  # a zone of a run that broke down may have no thickness left
-        density /= 1.0 - strain
-    fields = {
-        "position": column.node_coordinate + state.displacement,
-        "velocity": centred,
-        "displacement": state.displacement.copy(),
-        "strain": strain,
-        "stress": stress,
-        "viscosity": state.force - stress,
-        "density": density,
-        "internal_energy": scratch.energy + scratch.gained,
-        "largest_strain": state.material[0].copy(),
-    }
+def frame(column: Column, profile: np.ndarray) -> Frame:
+    """A profile as `kernels.profiles` takes it, by names; the arrays are views of it."""
+    cut = profiles.HEAD + profiles.NODE_FIELDS * (column.zones + 1)
+    nodes, zones = profile[profiles.HEAD : cut].reshape(-1, column.zones + 1), profile[cut:].reshape(-1, column.zones)
+    names = [variable.name for variable in (*ZONE, column.zone_history[0])]
+    fields = {variable.name: values for variable, values in zip(NODE, nodes, strict=True)}
+    fields |= dict(zip(names, zones, strict=False))
     for name in [variable.name for variable in column.zone_history[1:]]:
         fields[name] = np.full(column.zones, np.nan)
         for slab in column.slabs:
             if name in slab.law.history:
-                fields[name][slab.part] = state.material[1 + list(slab.law.history).index(name), slab.part]
-    return Frame(float(ledger[layout.TIME]), state.cycle, fields)
-
-
-def _centred(program: Program, scratch: State) -> np.ndarray:
-    """Node velocities at the time of the stresses: a row recorded on a copy leaves them in the spare array."""
-    program.advance(scratch, stop=scratch.time, steps=0, row_at_stop=True)
-    return program.spare[1:-1].copy()
+                own = zones[len(names) + list(slab.law.history).index(name)]
+                fields[name][slab.part] = own[slab.part]
+    return Frame(float(profile[0]), int(profile[1]), fields)

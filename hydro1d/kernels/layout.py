@@ -15,7 +15,11 @@ LEFT_FRONT, RIGHT_FRONT, FIRST_STEP, PACE_TIME = range(13, 17)
 STOP, STEPS, CADENCE, ROW_AT_STOP, CFL = range(17, 22)
 STATUS, ROWS, LIMITING_LAYER = range(22, 25)
 WORK_LOST, IMPULSE_LOST = range(25, 27)  # what rounding took off their sums
-LEDGER = 27
+STOPS, ENOUGH, PASSED, PROFILES = range(27, 31)  # of a call: how many are given, end it, were passed; profiles taken
+LEDGER = 31
+
+# A run that breaks down is tried again from the start of a block of so many cycles, wherever calls have cut the run.
+CYCLE_BLOCK = 32
 
 # What a call answers as its status
 REACHED, PAUSED, NOT_FINITE, INVERTED, COLLAPSED = range(5)
@@ -29,7 +33,8 @@ NUMBERS = zone_places.NUMBERS + 6
 END = 10  # numbers of a `boundaries.base.End`
 
 SCRATCH = zone_places.RESULTS  # where `out` goes on after the answers of a kernel
-OUT = SCRATCH + end_places.MEMORY
+REMEMBERED = SCRATCH + end_places.MEMORY  # of both boundaries
+OUT = REMEMBERED + 2 * end_places.MEMORY
 
 
 class Arrays(NamedTuple):
@@ -37,8 +42,9 @@ class Arrays(NamedTuple):
 
     Over nodes: displacement, mass, inverse_mass, coordinate; velocity and spare, with a ghost at each end, so node i stands
     at i + 1. Over zones: energy (specific, at the last settling), gained (since then), force (σ + q), viscosity (q), state
-    (largest strain, then the laws' history, `zones` apart), and what `zones.foam_kernel` remembers. rows and probe_rows:
-    history as it is recorded.
+    (largest strain, then the laws' history, `zones` apart: so many `variables`), and what `zones.foam_kernel` remembers.
+    rows and probe_rows: history as it is recorded. stops: times at which to arrive, each followed by 1 if a profile is to
+    be taken there; profiles: one after the other.
     """
 
     ledger: Any
@@ -68,9 +74,12 @@ class Arrays(NamedTuple):
     probes: Any
     probe_weights: Any
     probe_rows: Any
+    stops: Any
+    profiles: Any
     layer_count: int
     zones: int
     columns: int
+    variables: int
 
 
-SIGNATURE = "pqq" + 21 * "p" + "qpp" + "iii"  # of `Arrays`; p: pointer to double, q: to integers, i: integer
+SIGNATURE = "pqq" + 21 * "p" + "qpppp" + "iiii"  # of `Arrays`; p: pointer to double, q: to integers, i: integer

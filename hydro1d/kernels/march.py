@@ -18,6 +18,8 @@ from hydro1d.kernels.layout import (
     CFL,
     COLLAPSED,
     CYCLE,
+    CYCLE_BLOCK,
+    ENOUGH,
     FIRST_STEP,
     FIRST_ZONE,
     FREE_STEP,
@@ -33,10 +35,12 @@ from hydro1d.kernels.layout import (
     NUMBERS,
     PACE_TIME,
     PARAMETERS,
+    PASSED,
     PAUSED,
     PEAK_LEFT,
     PEAK_RIGHT,
     PEAK_STRESS,
+    PROFILES,
     REACHED,
     ROW_AT_STOP,
     ROWS,
@@ -44,6 +48,7 @@ from hydro1d.kernels.layout import (
     STATUS,
     STEPS,
     STOP,
+    STOPS,
     TIME,
     TOP_STRAIN,
     VISCOUS_WORK,
@@ -54,6 +59,7 @@ from hydro1d.kernels.layout import (
 )
 from hydro1d.kernels.memory import LINE
 from hydro1d.kernels.primitives import call, offset
+from hydro1d.kernels.profiles import take_profile
 
 BLOCK = 512  # zones whose arrays stay in the first-level cache between the node pass and the zone pass
 # Of the closing speed. Equal steps under a steady force add the same number to a velocity each time, and rounding errs to
@@ -72,19 +78,24 @@ def march(
     ledger: Any, layers: Any, addresses: Any, parameters: Any, numbers: Any, end_numbers: Any, memory: Any, out: Any,
     velocity: Any, spare: Any, displacement: Any, energy: Any, gained: Any, force: Any, viscosity: Any, state: Any,
     curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, mass: Any, inverse_mass: Any, coordinate: Any, rows: Any,
-    probes: Any, probe_weights: Any, probe_rows: Any, layer_count: int, zones: int, columns: int,
+    probes: Any, probe_weights: Any, probe_rows: Any, stops: Any, profiles: Any, layer_count: int, zones: int,
+    columns: int, variables: int,
 ) -> None:  # fmt: skip
-    """Step until the ledger's stop time, its number of steps, full rows, or a breakdown. The arguments are `Arrays`."""
+    """Step until the last stop, the ledger's number of steps, full rows, enough stops, or a breakdown.
+
+    The arguments are `Arrays`. Stops are enough only where a block of `CYCLE_BLOCK` cycles ends.
+    """
     a = Arrays(
         ledger, layers, addresses, parameters, numbers, end_numbers, memory, out, velocity, spare, displacement, energy,
         gained, force, viscosity, state, curve, tangents, stiffnesses, speeds, mass, inverse_mass, coordinate, rows, probes,
-        probe_weights, probe_rows, layer_count, zones, columns,
+        probe_weights, probe_rows, stops, profiles, layer_count, zones, columns, variables,
     )  # fmt: skip
     steps, cadence, capacity = int(ledger[STEPS]), int(ledger[CADENCE]), int(ledger[ROWS])
     recorded, taken = 0, 0
-    status = REACHED if ledger[TIME] >= ledger[STOP] else PAUSED
     before, after = velocity, spare
-    while taken < steps and status == PAUSED and recorded < capacity:
+    ledger[PASSED], ledger[PROFILES], ledger[STOP] = 0.0, 0.0, stops[0]
+    status = pass_stops(a, before, after) if ledger[TIME] >= ledger[STOP] else PAUSED
+    while taken < steps and status == PAUSED and recorded < capacity and not has_enough(ledger):
         status = take_step(a, before, after, taken == 0)
         before, after = after, before
         taken += 1
@@ -93,6 +104,8 @@ def march(
         if cadence > 0 and int(ledger[CYCLE]) % cadence == 0 and status <= PAUSED:
             record(a, before, after, recorded)
             recorded += 1
+        if status == REACHED:
+            status = pass_stops(a, before, after)
     if taken % 2 == 1:
         for i in range(zones + 3):
             velocity[i] = before[i]
@@ -103,6 +116,26 @@ def march(
         numbers[layer * NUMBERS + zone_places.AFRESH] = 1.0
     ledger[ROWS] = recorded
     ledger[STATUS] = status
+
+
+def pass_stops(a: Arrays, velocity: Any, centred: Any) -> int:
+    """Take the profile of a stop that is reached, if one is wanted, and turn to the next; REACHED where it was the last."""
+    ledger = a.ledger
+    while ledger[TIME] >= ledger[STOP]:
+        stop = int(ledger[PASSED])
+        if a.stops[2 * stop + 1] > 0.0:
+            take_profile(a, velocity, centred, int(ledger[PROFILES]))
+            ledger[PROFILES] += 1.0
+        ledger[PASSED] += 1.0
+        if ledger[PASSED] >= ledger[STOPS]:
+            return REACHED
+        ledger[STOP] = a.stops[2 * stop + 2]
+    return PAUSED
+
+
+def has_enough(ledger: Any) -> bool:
+    """Whether profiles are to be handed over, where the next call may be tried again from."""
+    return ledger[PASSED] >= ledger[ENOUGH] and int(ledger[CYCLE]) % CYCLE_BLOCK == 0
 
 
 def take_step(a: Arrays, before: Any, after: Any, afresh: bool) -> int:

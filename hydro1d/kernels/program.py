@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from hydro1d.boundaries.base import Boundary
 from hydro1d.column import Column
-from hydro1d.kernels import build, layout, march, records
+from hydro1d.kernels import build, layout, march, profiles, records
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.memory import placed
@@ -48,9 +48,10 @@ class Program:
         self.rows = np.zeros((row_capacity + 1, self.columns))
         self.probe_table, self.probe_weights = _locate_probes(column)
         self.probe_rows = np.zeros((row_capacity + 1, len(column.probes), 4))
-        self._scratch: State | None = None
+        self.profile_length = profiles.length(zones, 1 + max(len(slab.law.history) for slab in column.slabs))
+        self._profiles = np.empty((0, self.profile_length))
+        self._known: tuple[State, layout.Arrays] | None = None
         self._bind()
-        self._known: list[tuple[State, layout.Arrays]] = []
 
     def _bind(self) -> None:
         slabs = self.column.slabs
@@ -66,20 +67,26 @@ class Program:
         self._zone_functions = [build.function(int(where), zone_places.SIGNATURE) for _, where in kernels[: len(slabs)]]
         self._march = build.function(march_address(), layout.SIGNATURE)
 
-    def scratch(self, state: State) -> State:
-        """A copy of the state that lives until the next call."""
-        if self._scratch is None:
-            self._scratch = state.copy()
-        self._scratch.assign(state)
-        return self._scratch
-
     def advance(self, state: State, *, stop: float, steps: int, row_at_stop: bool) -> int:
         """Step until ``stop`` (s), ``steps`` steps or full rows; returns a status of `kernels.march`."""
-        ledger = state.ledger
-        ledger[layout.STOP], ledger[layout.STEPS], ledger[layout.CADENCE] = stop, steps, self.column.history_every
+        return self.advance_past(state, [(stop, False)], steps=steps, row_at_stop=row_at_stop)
+
+    def advance_past(
+        self, state: State, stops: Sequence[tuple[float, bool]], *, steps: int, row_at_stop: bool, enough: int = 1
+    ) -> int:
+        """The same past several stops, each a time (s) and whether to take a profile there; ``enough`` end the call."""
+        ledger, count = state.ledger, sum(profile for _, profile in stops)
+        times = np.array(stops, dtype=float)
+        self._profiles = np.empty((count, self.profile_length))
+        ledger[layout.STEPS], ledger[layout.CADENCE] = steps, self.column.history_every
         ledger[layout.ROW_AT_STOP], ledger[layout.ROWS] = row_at_stop, self.row_capacity
-        self._march(*self._arrays(state))
+        ledger[layout.STOPS], ledger[layout.ENOUGH] = len(stops), enough
+        self._march(*self._arrays(state)._replace(stops=_place(times), profiles=_place(self._profiles)))
         return int(ledger[layout.STATUS])
+
+    def profiles(self, state: State) -> np.ndarray:
+        """Profiles that the last `advance_past` took, each as `kernels.profiles` has it."""
+        return self._profiles[: int(state.ledger[layout.PROFILES])]
 
     def recorded(self, state: State) -> tuple[np.ndarray, np.ndarray]:
         """Rows of history and probes that the last `advance` recorded, as the history shows them."""
@@ -96,22 +103,12 @@ class Program:
 
     def sweep_layer(self, state: State, layer: int) -> np.ndarray:
         """Call a layer's zone kernel on the state as it stands; what it finds is valid until the next call."""
-        return self._sweep(state, layer, self.column.slabs[layer].zones, self._arrays(state).force)
-
-    def stress(self, state: State) -> np.ndarray:
-        """Stress of every zone, Pa (zones,), without viscosity."""
-        stress = np.zeros(self.column.zones)
-        for layer, slab in enumerate(self.column.slabs):
-            self._sweep(state, layer, -slab.zones, _place(stress))  # negative: observes only
-        return stress
-
-    def _sweep(self, state: State, layer: int, zones: int, force: Any) -> np.ndarray:
-        a, first = self._arrays(state), self.column.slabs[layer].first
+        a, first, zones = self._arrays(state), self.column.slabs[layer].first, self.column.slabs[layer].zones
         state.numbers[layer, zone_places.AFRESH] = 1.0
         parameters = _onward(a.parameters, int(self.layers[layer, layout.PARAMETERS]))
         numbers = _onward(a.numbers, layer * layout.NUMBERS)
         arrays = (
-            a.velocity, a.velocity, a.displacement, a.energy, a.gained, force, a.viscosity, a.state, a.curve, a.tangents,
+            a.velocity, a.velocity, a.displacement, a.energy, a.gained, a.force, a.viscosity, a.state, a.curve, a.tangents,
             a.stiffnesses, a.speeds,
         )  # fmt: skip
         here = (_onward(place, first) for place in arrays)
@@ -120,19 +117,19 @@ class Program:
 
     def _arrays(self, state: State) -> layout.Arrays:
         """Where everything is, found once for a state: for a frame this would take longer than its numbers do."""
-        for known, arrays in self._known:
-            if known is state:
-                return arrays
-        column = self.column
+        if self._known is not None and self._known[0] is state:
+            return self._known[1]
+        column, nowhere = self.column, np.empty(0)
         own = (
             state.ledger, self.layers, self.addresses, self.parameters, state.numbers, self.end_numbers, state.memory,
             self.out, state.velocity, self.spare, state.displacement, state.energy, state.gained, state.force,
             state.viscosity, state.material, self.curve, self.tangents, self.stiffnesses, self.speeds, column.node_mass,
             self.inverse_mass, column.node_coordinate, self.rows, self.probe_table, self.probe_weights, self.probe_rows,
+            nowhere, nowhere,
         )  # fmt: skip
-        arrays = layout.Arrays._make([*map(_place, own), len(column.slabs), column.zones, self.columns])
-        self._known = [*self._known[-1:], (state, arrays)]
-        return arrays
+        counts = (len(column.slabs), column.zones, self.columns, len(state.material))
+        self._known = state, layout.Arrays._make([*map(_place, own), *counts])
+        return self._known[1]
 
 
 def _place(array: Any) -> Any:

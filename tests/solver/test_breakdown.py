@@ -66,17 +66,20 @@ class Hasty(Law):
         return stress, 1e6, 1e6, True, (strain,)
 
 
-def test_a_block_that_breaks_down_is_tried_again_wherever_the_run_is_cut():
+@pytest.mark.parametrize("profiles", [1, 40])
+def test_a_block_that_breaks_down_is_tried_again_wherever_the_run_is_cut(profiles):
     # at 10 m/s every block of the run breaks down at full steps and passes at half of them
     def fields(**options):
+        options["profile_times"] = np.linspace(6e-3 / profiles, 6e-3, profiles)
         outcome, kept = run([layer(Hasty(density=100.0), zones=50)], Piston(velocity=10.0), Wall(), end=6e-3, **options)
         assert outcome.status == "complete", outcome.message
         assert outcome.cycles > 100  # 84 were it never tried again
         return kept.frames[-1].fields | {"cycles": outcome.cycles}
 
-    whole = fields(history=100, profile_times=[6e-3])
-    steps = [fields(history=history, profile_times=[6e-3], checkpoints=plan) for history, plan in
-             ((1, None), (7, CheckpointPlan(cycles=3)), (0, CheckpointPlan(cycles=50)))]  # fmt: skip
+    whole = fields(history=100)
+    steps = [fields(history=history, checkpoints=plan) for history, plan in
+             ((1, None), (7, CheckpointPlan(cycles=3)), (0, CheckpointPlan(cycles=50)),
+              (0, CheckpointPlan(time=1e-4)))]  # fmt: skip
     for other in steps:
         for name, values in whole.items():
             assert np.array_equal(values, other[name]), name

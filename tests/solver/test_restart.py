@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from columns import FOAM, PULSE, layer, run
 
+from hydro1d import solver
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
 from hydro1d.solver import CheckpointPlan
@@ -43,3 +44,17 @@ def test_a_chain_of_restarts_ends_where_one_run_does():
         state = part.states[0]
     for name, values in part.frames[-1].fields.items():
         assert np.array_equal(values, whole.frames[-1].fields[name]), name
+
+
+def test_a_stretch_that_passes_many_stops_takes_the_same_profiles_as_one_that_ends_at_each(monkeypatch):
+    options = {"end": 4e-3, "profile_times": np.linspace(0, 4e-3, 200), "history": 7}
+    _, many = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), **options)
+    monkeypatch.setattr(solver, "MOST_VALUES", 0)
+    _, each = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), **options)
+    assert len(many.rows) < len(each.rows) / 5
+    assert np.array_equal(np.concatenate(many.rows), np.concatenate(each.rows), equal_nan=True)
+    assert [frame.time for frame in many.frames] == options["profile_times"].tolist()
+    for one, other in zip(many.frames, each.frames, strict=True):
+        assert (one.time, one.cycle) == (other.time, other.cycle)
+        for name, values in one.fields.items():
+            assert np.array_equal(values, other.fields[name]), name
