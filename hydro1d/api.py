@@ -97,7 +97,7 @@ def run(
     _raise_unless_complete(outcome, written, saved)
     from hydro1d.store import open_run
 
-    return open_run(written)
+    return open_run(written, kept=sink.kept)
 
 
 def _in_memory(deck: Deck, column: Column, progress: Callable[[float], None] | None) -> Run:

@@ -219,11 +219,11 @@ class _Run:
         return self.outcome("complete")
 
     def hand_over(self) -> None:
-        """What the last call recorded."""
-        if self.state.ledger[layout.ROWS] > 0:
-            self.sink.history(*self.program.recorded(self.state))
+        """What the last call recorded, the profiles first: a partial result holds all of them up to its last row."""
         for profile in self.program.profiles(self.state):
             self.sink.profile(frame(self.column, profile))
+        if self.state.ledger[layout.ROWS] > 0:
+            self.sink.history(*self.program.recorded(self.state))
 
     def stretch(self) -> int:
         """One call of the time loop. Where it breaks down, the blocks before that stand; the block itself is tried again."""

@@ -25,7 +25,7 @@ class Background:
             return
         for table in tables:
             for block in table.blocks:
-                if block.values is not None and not block.taken:
+                if not block.pieces and not block.taken:
                     block.taken = True
                     self._jobs.append((self._pool.submit(table.compress_block, block), block))
 

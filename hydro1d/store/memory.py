@@ -53,14 +53,10 @@ class MemorySink(Recorder):
 
     def finish(self, status: str, cycles: int, wall_seconds: float, **more: Any) -> Run:
         """The run as it stands; `more`: further attributes."""
-        arrays: dict[str, np.ndarray] = {}
-        fields: dict[str, Field] = {}
-        for table in self.tables:
-            for field, values in zip(table.fields, table.all(), strict=True):
-                arrays[field.path], fields[field.path] = values, field
-        names = np.array(self.layout.layer_name, dtype=object)
-        for path, array in {**self.layout.static(), "layer_name": names}.items():
-            arrays[path], fields[path] = array, STATIC[path]
+        fields: dict[str, Field] = {field.path: field for table in self.tables for field in table.fields}
+        fields |= {path: STATIC[path] for path in (*self.layout.static(), "layer_name")}
+        kept = {path: self.kept(path) for path in fields}
+        arrays = {path: array for path, array in kept.items() if array is not None}
         for name, array in self._maxima.items():
             field = MAXIMA[name]
             arrays[field.path], fields[field.path] = array, field

@@ -57,6 +57,15 @@ class Recorder:
             self.probes.append(np.moveaxis(probes, 2, 0))
         self.recorded()
 
+    def kept(self, path: str) -> np.ndarray | None:
+        """What was recorded of a quantity, or what does not change with time; None if its numbers have been given up."""
+        for table in self.tables:
+            for index, field in enumerate(table.fields):
+                if field.path == path:
+                    return table.column(index)
+        names = np.array(self.layout.layer_name, dtype=object)
+        return {**self.layout.static(), "layer_name": names}.get(path)
+
     def recorded(self) -> None:
         """Called after each record."""
 

@@ -19,9 +19,9 @@ _PARALLEL = 1 << 20  # bytes that are worth starting threads for
 
 @dataclass
 class Block:
-    """Consecutive rows of all fields of a table: as numbers, or compressed, one list of pieces per field.
+    """Consecutive rows of all fields of a table: as numbers, and compressed, one list of pieces per field.
 
-    taken: a thread compresses it, or will.
+    taken: a thread compresses it, or will. Numbers may be given up once there are pieces.
     """
 
     start: int
@@ -32,8 +32,7 @@ class Block:
 
     def nbytes(self) -> int:
         """Memory held."""
-        values = self.values  # which a thread may be done with any time
-        held = 0 if values is None else values.nbytes
+        held = 0 if self.values is None else self.values.nbytes
         return held + sum(len(piece) for pieces in self.pieces for piece in pieces)
 
 
@@ -76,6 +75,12 @@ class Table:
         """Memory held by the full blocks."""
         return sum(block.nbytes() for block in self.blocks)
 
+    def forget(self) -> None:
+        """Give up the numbers of what is compressed."""
+        for block in self.blocks:
+            if block.pieces:
+                block.values = None
+
     def append_row(self, row: Iterable[np.ndarray | float]) -> None:
         """Record one row, a value of shape tail for each field."""
         for values, value in zip(self.values, row, strict=True):
@@ -99,10 +104,11 @@ class Table:
             self.start += self.rows
             self._new_block()
 
-    def all(self) -> np.ndarray:
-        """Everything recorded, where no block has been compressed: shape (fields, total, *tail)."""
-        parts = [block.values for block in self.blocks if block.values is not None]
-        return np.concatenate([*parts, self.values[:, : self.fill]], axis=1)
+    def column(self, index: int) -> np.ndarray | None:
+        """Everything recorded of one field, (total, *tail); None where numbers have been given up."""
+        parts = [block.values[index] for block in self.blocks if block.values is not None]
+        whole = np.concatenate([*parts, self.values[index, : self.fill]])
+        return whole if len(whole) == self.total else None
 
     def tail_block(self, alone: bool) -> Block | None:
         """The rows of the block being filled: as they are if they are `alone` in their file, else padded with zeros."""
@@ -123,9 +129,8 @@ class Table:
         return list(range(0, self.tail[0], self.columns[0])) if self.tail else [0]
 
     def compress_block(self, block: Block) -> None:
-        """Compress a full block; its numbers are given up."""
+        """Compress a full block."""
         block.pieces = [self.compress_next(block, index) for index in range(len(self.fields))]
-        block.values = None
 
     def compress_next(self, block: Block, index: int) -> list[bytes]:
         """Chunks of one field of the block that follows; the field's checksum runs on."""
@@ -156,25 +161,21 @@ def compress_all(
     """
     results: list[tuple[Block | None, list[int]]] = []
     jobs: list[Callable[[], None]] = []
+    size = 0
     for table in tables:
         tail = table.tail_block(alone) if tails else None
         sums = list(table.crc)
         results.append((tail, sums))
-        waiting = [block for block in table.blocks if block.values is not None]
+        waiting = [block for block in table.blocks if not block.pieces]
+        size += sum(_field(block, 0).nbytes for block in [*waiting, *([tail] if tail else [])]) * len(table.fields)
         for block in [*waiting, *([tail] if tail else [])]:
             block.pieces = [[] for _ in table.fields]
         jobs += [_job(table, index, waiting, tail, sums) for index in range(len(table.fields))]
-    _run(jobs, threads if _waiting(results, tables) > _PARALLEL else 1)
-    for table, (tail, _) in zip(tables, results, strict=True):
-        for block in [*table.blocks, *([tail] if tail else [])]:
-            block.values = None
+    _run(jobs, threads if size > _PARALLEL else 1)
+    for tail, _ in results:
+        if tail is not None:  # the numbers of the block being filled are the table's
+            tail.values = None
     return results
-
-
-def _waiting(results: list[tuple[Block | None, list[int]]], tables: list[Table]) -> int:
-    """Bytes of numbers that are about to be compressed."""
-    blocks = [block for table in tables for block in table.blocks] + [tail for tail, _ in results if tail]
-    return sum(block.values.nbytes for block in blocks if block.values is not None)
 
 
 def _job(table: Table, index: int, blocks: list[Block], tail: Block | None, sums: list[int]) -> Callable[[], None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,11 +27,16 @@ _SMALL = 1 << 20
 class FileSource:
     """The datasets of one file by path, checked as they are read. The file is open only while something is read.
 
-    `check_schema=False` leaves the version to the caller.
+    `check_schema=False` leaves the version to the caller; what is `kept` in memory is not read.
     """
 
-    def __init__(self, path: str | os.PathLike[str], check_schema: bool = True) -> None:
-        self.path = Path(path)
+    def __init__(
+        self,
+        path: str | os.PathLike[str],
+        check_schema: bool = True,
+        kept: Callable[[str], np.ndarray | None] | None = None,
+    ) -> None:
+        self.path, self._kept = Path(path), kept
         self.name = os.fspath(path)
         if self.path.is_dir():
             raise FileProblem(f"cannot read {self.name}: it is a folder")
@@ -97,6 +102,9 @@ class FileSource:
 
     def array(self, path: str) -> np.ndarray:
         """Values of a dataset, compared with its checksum."""
+        kept = self._kept(path) if self._kept is not None else None
+        if kept is not None:
+            return kept
         with self._open() as file:
             dataset = self._dataset(file, path)
             kind = dataset.dtype.kind

@@ -103,9 +103,15 @@ class Hdf5Sink(Recorder):
             self.publish_partial()
 
     def relieve(self) -> None:
-        """Move what is full out of memory when there is too much of it."""
-        if sum(table.nbytes() for table in self.tables) > self._buffer_bytes:
-            self._drain()
+        """Move what is full out of memory when there is too much of it; numbers that are compressed go first."""
+        if self._holds_too_much():
+            for table in self.tables:
+                table.forget()
+            if self._holds_too_much():
+                self._drain()
+
+    def _holds_too_much(self) -> bool:
+        return sum(table.nbytes() for table in self.tables) > self._buffer_bytes
 
     def checkpoint(self, state: Any) -> Path:
         """Write `NAME.checkpoint-<cycle>.h5`: all records and `state.arrays()`; keeps the last two of this run."""
@@ -192,6 +198,8 @@ class Hdf5Sink(Recorder):
                 self._working = self._temporary()
                 self._finalizer = weakref.finalize(self, files.Temporary.discard, self._working)
                 self._working.append(image.empty(self.content, self.tables))
+            for table in self.tables:
+                table.forget()
             size = sum(table.nbytes() for table in self.tables)
             self._working.reserve(size + image.MARGIN)
             with image.opened(self._working.path) as file:

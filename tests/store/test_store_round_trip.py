@@ -114,3 +114,18 @@ def test_chunks_suit_profiles_and_time_series(tmp_path):
         assert file["stress"].chunks == (51, 1000)
         assert file["stress"].compression == "gzip" and file["stress"].shuffle
         assert file["history/right_stress"].chunks == (7035,)
+
+
+@pytest.mark.parametrize("buffer_bytes", [32 << 20, 2 << 20, 100_000])
+def test_what_is_still_in_memory_is_what_the_file_holds(tmp_path, buffer_bytes):
+    sink = Hdf5Sink(
+        tmp_path / "a.h5", made_up.layout(zones=1000, profiles=200), made_up.DECK_TEXT, made_up.RESOLVED,
+        buffer_bytes=buffer_bytes,
+    )  # fmt: skip
+    made_up.record(sink, 0, 200, zones=1000)
+    path = sink.finish("complete", 200, 0.0)
+    kept, read = open_run(path, kept=sink.kept), open_run(path)
+    assert (sink.kept("stress") is not None) == (buffer_bytes == 32 << 20)  # else its numbers had to go
+    for name in (*read, *(f"{group}/{name}" for group in ("history", "probes") for name in getattr(read, group))):
+        assert kept[name].dtype == read[name].dtype, name
+        assert np.array_equal(kept[name], read[name], equal_nan=read[name].dtype.kind == "f"), name
