@@ -136,18 +136,21 @@ def _features() -> str:
 
 def _compile(kernel: Callable, signature: str) -> bytes:
     """Object code with one public symbol, ``kernel``."""
-    from numba import cfunc, types
+    from numba import njit, types
 
-    from hydro1d.kernels.lowering import POINTER, make_compilable, only_lowered
+    from hydro1d.kernels.lowering import LEAN, POINTER, make_compilable, only_lowered
     from hydro1d.kernels.refusals import noticed
 
     letters = {"p": POINTER, "q": types.CPointer(types.int64), "i": types.int64}
     make_compilable(kernel)
-    kinds = types.void(*(letters[letter] for letter in signature))
+    kinds = tuple(letters[letter] for letter in signature)
+    # With the options of what it calls: numba would compile that again for a caller with others.
+    options: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "arcp"}, "_nrt": False, **LEAN}
+    dispatcher: Any = njit(**options)(kernel)
     with noticed(), only_lowered(), _without_garbage_collection():
-        compiled = cfunc(kinds, error_model="numpy", fastmath={"contract", "arcp"}, _nrt=False)(kernel)
-    native = compiled.native_name.removeprefix("cfunc.")
-    module = llvm.parse_assembly(_with_entry(compiled.inspect_llvm(), native, signature))
+        dispatcher.compile(kinds)
+    native = dispatcher.overloads[kinds].fndesc.mangled_name
+    module = llvm.parse_assembly(_with_entry(dispatcher.inspect_llvm(kinds), native, signature))
     for defined in module.functions:
         if not defined.is_declaration and defined.name != "kernel":
             defined.linkage = "internal"

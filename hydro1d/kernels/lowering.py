@@ -32,7 +32,7 @@ from numba.np import linalg
 from hydro1d.kernels import primitives
 from hydro1d.parameters import Component, derived
 
-_LEAN = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}  # for what only compiled code calls
+LEAN = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}  # for what only compiled code calls
 
 POINTER = types.CPointer(types.float64)
 _INTEGER, _DOUBLE = ir.IntType(64), ir.DoubleType()
@@ -100,7 +100,7 @@ def _call(_typing: Any, addresses: Any, which: Any, arguments: Any) -> Any:
 
 
 # numba hands a variable number of arguments only to an overload.
-overload(primitives.call, jit_options=_LEAN)(
+overload(primitives.call, jit_options=LEAN)(
     lambda functions, which, *arguments: lambda functions, which, *arguments: _call(functions, which, arguments)
 )
 
@@ -159,7 +159,7 @@ def record_type(component: Component, members: dict[str, Any]) -> types.Type:
     instance = record()
     for key, method in methods(type(component)).items():
         make_compilable(method)
-        overload_method(record, key, jit_options=_LEAN)(_as_overload(method))
+        overload_method(record, key, jit_options=LEAN)(_as_overload(method))
     return instance
 
 
@@ -200,7 +200,7 @@ def make_compilable(function: FunctionType) -> None:
         if isinstance(callee, FunctionType) and not getattr(callee, "_hydro1d_jitable", False):
             callee._hydro1d_jitable = True  # type: ignore[attr-defined]
             if callee.__module__ != primitives.__name__:
-                register_jitable(**_LEAN)(callee)
+                register_jitable(**LEAN)(callee)
             make_compilable(callee)
 
 

@@ -145,7 +145,8 @@ def take_step(a: Arrays, before: Any, after: Any, afresh: bool) -> int:
     kick_ends(a, before, after, kick, step)
     for layer in range(a.layer_count):
         numbers = offset(a.numbers, layer * NUMBERS)
-        numbers[zone_places.STEP], numbers[zone_places.KICK] = step, kick
+        per_mass = numbers[zone_places.INVERSE_SIZE] * numbers[zone_places.INVERSE_DENSITY]
+        numbers[zone_places.TO_KICK], numbers[zone_places.TO_STRAIN] = 0.5 * kick * per_mass, 0.5 * step * per_mass
         numbers[zone_places.AFRESH] = 1.0 if afresh else 0.0  # within a call the kernels remember their curves
     stable, strain, layer = sweep(a, before, after, kick, step)
     return close_step(a, step, stable, strain, layer)

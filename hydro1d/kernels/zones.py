@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from hydro1d.kernels.primitives import accumulate, gather, larger, scatter
 
 # p: pointer to double, i: integer
 SIGNATURE = "ppppppppppppppiip"
 
-# Places in `numbers`, the scalars of a call ...
-STEP, KICK, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, SMOOTH_LINEAR, QUADRATIC = range(8)
+# Places in `numbers`, the scalars of a call: specific energy per force and velocity jump, over half a kick and from there to
+# the time of the strain (compatible work: the force that moved the nodes, on the mean of the velocities between which it
+# moved them), then what stays ...
+TO_KICK, TO_STRAIN, INVERSE_SIZE, INVERSE_DENSITY, DENSITY, LINEAR, SMOOTH_LINEAR, QUADRATIC = range(8)
 NUMBERS = 8
 AFRESH = NUMBERS  # not 0 where nothing that `foam_kernel` remembers holds
 # ... and in `out`, what comes back: largest stiffness/ρ0, largest viscous speed, stress and strain, and Σ q (Δv before and
@@ -51,7 +53,7 @@ def zone_kernel(unpack: Callable, history_count: tuple[float, ...]) -> Callable:
             return
         per_size, per_density, density = numbers[INVERSE_SIZE], numbers[INVERSE_DENSITY], numbers[DENSITY]
         linear, smooth_linear, quadratic = numbers[LINEAR], numbers[SMOOTH_LINEAR], numbers[QUADRATIC]
-        to_kick, to_strain = work_factors(numbers)
+        to_kick, to_strain = numbers[TO_KICK], numbers[TO_STRAIN]
         top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(zones):
             jump = velocity[i + 1] - velocity[i + 2]
@@ -104,27 +106,27 @@ def foam_kernel(unpack: Callable, _history_count: tuple[float, ...]) -> Callable
                 stress, tangent = law.loading(largest)
                 force[i] = law.stress_below(largest - strain, stress, law.slope_below(largest, tangent))
             return
+        zone = Zones(numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve, tangents,
+                     stiffnesses, speeds)  # fmt: skip
         top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
         chunk = CHUNK if zones > SHORT else CHUNK // 2
         for start in range(0, zones, chunk):
             end = start + chunk if start + chunk < zones else zones  # min() of integers is a function more to compile
-            grown = turned = int(numbers[AFRESH])
-            smooth = 0
+            grown = turned = numbers[AFRESH] != 0.0
+            smooth = False
             for i in range(start, end):
-                grown |= int((displacement[i] - displacement[i + 1]) * per_size > state[i])
-                smooth |= int(law.never_yielded(state[i]))
-            if grown != 0:
+                grown |= (displacement[i] - displacement[i + 1]) * per_size > state[i]
+                smooth |= law.never_yielded(state[i])
+            if grown:
                 for i in range(start, end):  # a loop of its own: it vectorises where the law's functions do
                     state[i] = max(state[i], (displacement[i] - displacement[i + 1]) * per_size)
                     stress, tangent = law.loading(state[i])
-                    turned |= int(tangent != tangents[i])
+                    turned |= tangent != tangents[i]
                     curve[i], tangents[i] = stress, tangent
                     # No zone's stress is ever above its loading curve, nor its strain above its largest.
                     top_stress = larger(top_stress, curve[i])
                     top_strain = larger(top_strain, state[i])
-            stiffness, speed, work = push(law, numbers, velocity, velocity_before, displacement, gained, force,
-                                          viscosity, state, curve, tangents, stiffnesses, speeds, start, end,
-                                          smooth, turned)  # fmt: skip
+            stiffness, speed, work = push(law, zone, start, end, smooth, turned)
             top_stiffness, top_speed, power = larger(top_stiffness, stiffness), larger(top_speed, speed), power + work
         answer(out, top_stiffness * per_density, top_speed, top_stress, top_strain, power)
 
@@ -132,40 +134,46 @@ def foam_kernel(unpack: Callable, _history_count: tuple[float, ...]) -> Callable
     return sweep
 
 
-def push(
-    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, gained: Any, force: Any,
-    viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int,
-    smooth: int, turned: int,
-) -> tuple[float, float, float]:  # fmt: skip
+class Zones(NamedTuple):
+    """What `push` works on; see the kernels' own documentation."""
+
+    numbers: Any
+    velocity: Any
+    velocity_before: Any
+    displacement: Any
+    gained: Any
+    force: Any
+    viscosity: Any
+    state: Any
+    curve: Any
+    tangents: Any
+    stiffnesses: Any
+    speeds: Any
+
+
+def push(law: Any, zone: Zones, start: int, end: int, smooth: bool, turned: bool) -> tuple[float, float, float]:
     """Energy and force of zones whose loading curve is known: a loop without limiter or square root where none needs them.
 
     Four calls with constants make four loops; with the flags as variables LLVM makes one, a third slower.
     """
-    if smooth != 0 and turned != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
-                          tangents, stiffnesses, speeds, start, end, True, True)  # fmt: skip
-    if smooth != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
-                          tangents, stiffnesses, speeds, start, end, True, False)  # fmt: skip
-    if turned != 0:
-        return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
-                          tangents, stiffnesses, speeds, start, end, False, True)  # fmt: skip
-    return push_zones(law, numbers, velocity, velocity_before, displacement, gained, force, viscosity, state, curve,
-                          tangents, stiffnesses, speeds, start, end, False, False)  # fmt: skip
+    if smooth and turned:
+        return push_zones(law, zone, start, end, True, True)
+    if smooth:
+        return push_zones(law, zone, start, end, True, False)
+    if turned:
+        return push_zones(law, zone, start, end, False, True)
+    return push_zones(law, zone, start, end, False, False)
 
 
-def push_zones(
-    law: Any, numbers: Any, velocity: Any, velocity_before: Any, displacement: Any, gained: Any, force: Any,
-    viscosity: Any, state: Any, curve: Any, tangents: Any, stiffnesses: Any, speeds: Any, start: int, end: int,
-    limited: bool, turned: bool,
-) -> tuple[float, float, float]:  # fmt: skip
+def push_zones(law: Any, zone: Zones, start: int, end: int, limited: bool, turned: bool) -> tuple[float, float, float]:
     """The loop of `push`. Where the tangent of the loading curve has changed, so do stiffness and speed.
 
     Returns the largest stiffness, the largest viscous speed and the work of the viscosity.
     """
+    numbers, velocity, before, moved, gained, force, viscosity, state, curve, tangents, stiffnesses, speeds = zone
     per_size, density, quadratic = numbers[INVERSE_SIZE], numbers[DENSITY], numbers[QUADRATIC]
     linear, smooth_linear, per_density = numbers[LINEAR], numbers[SMOOTH_LINEAR], numbers[INVERSE_DENSITY]
-    to_kick, _ = work_factors(numbers)
+    to_kick = numbers[TO_KICK]
     top_stiffness, top_speed, power = 0.0, 0.0, 0.0
     for i in range(start, end):
         if turned:
@@ -174,10 +182,10 @@ def push_zones(
             )
             stiffnesses[i] = law.slope_below(state[i], tangents[i])
         jump = velocity[i + 1] - velocity[i + 2]
-        jump_before = velocity_before[i + 1] - velocity_before[i + 2]
+        jump_before = before[i + 1] - before[i + 2]
         gained[i] += force[i] * to_kick * (jump_before + jump)
         power = accumulate(power, viscosity[i] * (jump_before + jump))
-        strain = (displacement[i] - displacement[i + 1]) * per_size
+        strain = (moved[i] - moved[i + 1]) * per_size
         stress = law.stress_below(state[i] - strain, curve[i], stiffnesses[i])
         closing = max(jump, 0.0)
         if limited:
@@ -191,15 +199,6 @@ def push_zones(
         top_stiffness = larger(top_stiffness, stiffnesses[i])
         top_speed = larger(top_speed, speed + max(quadratic, FASTEST_CLOSING) * approach)
     return top_stiffness, top_speed, power
-
-
-def work_factors(numbers: Any) -> tuple[float, float]:
-    """Specific energy per force and velocity jump, over half a kick and from there to the time of the strain.
-
-    Compatible work: the force that moved the nodes, on the mean of the velocities between which it moved them.
-    """
-    per_mass = numbers[INVERSE_SIZE] * numbers[INVERSE_DENSITY]
-    return 0.5 * numbers[KICK] * per_mass, 0.5 * numbers[STEP] * per_mass
 
 
 def shared_jump(velocity: Any, i: int, jump: float) -> float:
