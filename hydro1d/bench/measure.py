@@ -84,8 +84,8 @@ def plain_numpy(zones: int, repetitions: int) -> dict[str, Any]:
 def memory_bandwidth(repetitions: int) -> dict[str, float]:
     """Bytes a second through memory by a triad of arrays beyond any cache, and ns per zone-cycle that this allows at most.
 
-    Per zone and cycle a foam moves 14 numbers of 8 bytes at least: both velocities, displacement, force, energy, mass, largest
-    strain and three numbers of its curve come in; one velocity, displacement, force and energy go out.
+    Per zone and cycle a foam moves 14 numbers of 8 bytes at least: velocity, displacement, force, viscosity, energy, largest
+    strain and three numbers of its curve come in; the first five go out.
     """
     size = 20_000_000
     a, b, c = np.zeros(size), np.ones(size), np.ones(size)

@@ -54,6 +54,7 @@ from hydro1d.kernels.layout import (
     VISCOUS_WORK,
     WORK,
     WORK_LOST,
+    ZONE_MASS,
     ZONES,
     Arrays,
 )
@@ -92,23 +93,18 @@ def march(
     )  # fmt: skip
     steps, cadence, capacity = int(ledger[STEPS]), int(ledger[CADENCE]), int(ledger[ROWS])
     recorded, taken = 0, 0
-    before, after = velocity, spare
     ledger[PASSED], ledger[PROFILES], ledger[STOP] = 0.0, 0.0, stops[0]
-    status = pass_stops(a, before, after) if ledger[TIME] >= ledger[STOP] else PAUSED
+    status = pass_stops(a) if ledger[TIME] >= ledger[STOP] else PAUSED
     while taken < steps and status == PAUSED and recorded < capacity and not has_enough(ledger):
-        status = take_step(a, before, after, taken == 0)
-        before, after = after, before
+        status = take_step(a, taken == 0)
         taken += 1
         if int(ledger[CYCLE]) % SETTLING == 0:
             settle(a)
         if cadence > 0 and int(ledger[CYCLE]) % cadence == 0 and status <= PAUSED:
-            record(a, before, after, recorded)
+            record(a, velocity, spare, recorded)
             recorded += 1
         if status == REACHED:
-            status = pass_stops(a, before, after)
-    if taken % 2 == 1:
-        for i in range(zones + 3):
-            velocity[i] = before[i]
+            status = pass_stops(a)
     if ledger[ROW_AT_STOP] > 0.0 and status == REACHED and (recorded == 0 or int(ledger[CYCLE]) % max(cadence, 1) != 0):
         record(a, velocity, spare, recorded)
         recorded += 1
@@ -118,13 +114,13 @@ def march(
     ledger[STATUS] = status
 
 
-def pass_stops(a: Arrays, velocity: Any, centred: Any) -> int:
+def pass_stops(a: Arrays) -> int:
     """Take the profile of a stop that is reached, if one is wanted, and turn to the next; REACHED where it was the last."""
     ledger = a.ledger
     while ledger[TIME] >= ledger[STOP]:
         stop = int(ledger[PASSED])
         if a.stops[2 * stop + 1] > 0.0:
-            take_profile(a, velocity, centred, int(ledger[PROFILES]))
+            take_profile(a, a.velocity, a.spare, int(ledger[PROFILES]))
             ledger[PROFILES] += 1.0
         ledger[PASSED] += 1.0
         if ledger[PASSED] >= ledger[STOPS]:
@@ -138,17 +134,18 @@ def has_enough(ledger: Any) -> bool:
     return ledger[PASSED] >= ledger[ENOUGH] and int(ledger[CYCLE]) % CYCLE_BLOCK == 0
 
 
-def take_step(a: Arrays, before: Any, after: Any, afresh: bool) -> int:
-    """One step; the velocities `before` it become those `after`. Returns a status."""
+def take_step(a: Arrays, afresh: bool) -> int:
+    """One step. Returns a status."""
     step = choose_step(a.ledger)
     kick = 0.5 * (a.ledger[LAST_STEP] + step)
-    kick_ends(a, before, after, kick, step)
+    left, right = a.velocity[1], a.velocity[a.zones + 1]
+    kick_ends(a, kick, step)
     for layer in range(a.layer_count):
         numbers = offset(a.numbers, layer * NUMBERS)
         per_mass = numbers[zone_places.INVERSE_SIZE] * numbers[zone_places.INVERSE_DENSITY]
         numbers[zone_places.TO_KICK], numbers[zone_places.TO_STRAIN] = 0.5 * kick * per_mass, 0.5 * step * per_mass
         numbers[zone_places.AFRESH] = 1.0 if afresh else 0.0  # within a call the kernels remember their curves
-    stable, strain, layer = sweep(a, before, after, kick, step)
+    stable, strain, layer = sweep(a, left, right, kick, step)
     return close_step(a, step, stable, strain, layer)
 
 
@@ -164,15 +161,15 @@ def choose_step(ledger: Any) -> float:
     return step
 
 
-def kick_ends(a: Arrays, before: Any, after: Any, kick: float, step: float) -> None:
+def kick_ends(a: Arrays, kick: float, step: float) -> None:
     """New velocities of the two end nodes by their boundaries, and the work and impulse that these give."""
     ledger = a.ledger
     for side in range(2):
         node, sign = (0, 1.0) if side == 0 else (a.zones, -1.0)
-        push_end(a, side, before, offset(a.memory, side * MEMORY), step)
+        push_end(a, side, a.velocity, offset(a.memory, side * MEMORY), step)
         velocity, pushed = a.out[VELOCITY], a.out[FORCE]
-        after[node + 1] = sign * velocity
-        add(ledger, WORK, WORK_LOST, pushed * 0.5 * (sign * before[node + 1] + velocity) * kick)
+        add(ledger, WORK, WORK_LOST, pushed * 0.5 * (sign * a.velocity[node + 1] + velocity) * kick)
+        a.velocity[node + 1] = sign * velocity
         add(ledger, IMPULSE, IMPULSE_LOST, sign * pushed * kick)
     ledger[LARGEST_INPUT] = max(ledger[LARGEST_INPUT], ledger[WORK])
 
@@ -188,14 +185,16 @@ def add(ledger: Any, place: int, lost: int, amount: float) -> None:
     ledger[place] = total
 
 
-def sweep(a: Arrays, before: Any, after: Any, kick: float, step: float) -> tuple[float, float, int]:
-    """Node phase and zone phase, block by block from left to right.
+def sweep(a: Arrays, left: float, right: float, kick: float, step: float) -> tuple[float, float, int]:
+    """Node phase and zone phase, block by block from left to right; `left` and `right` were the velocities of the ends.
 
     Returns the largest stable step, the largest strain and the layer that limits.
     """
-    ledger, out = a.ledger, a.out
-    a.displacement[0] += step * after[1]
-    a.displacement[a.zones] += step * after[a.zones + 1]
+    ledger, out, velocity = a.ledger, a.out, a.velocity
+    a.displacement[0] += step * velocity[1]
+    a.displacement[a.zones] += step * velocity[a.zones + 1]
+    before, base = a.spare, 0
+    before[1] = left
     stable, strain, limiting, node = math.inf, -math.inf, 0, 1
     for layer in range(a.layer_count):
         first = a.layers[layer * LAYER + FIRST_ZONE]
@@ -204,8 +203,13 @@ def sweep(a: Arrays, before: Any, after: Any, kick: float, step: float) -> tuple
         stiffness, speed = 0.0, 0.0
         for start in range(first, last, BLOCK):
             end = min(start + BLOCK, last)
-            node = kick_nodes(a, before, after, node, end, kick, step)
-            push_zones(a, layer, numbers, before, after, start, end)
+            for i in range(start, node):  # what the block before has kicked already
+                before[i - start + 1] = before[i - base + 1]
+            base = start
+            node = kick_nodes(a, layer, node, start, end, kick, step)
+            if end == a.zones:
+                before[end - start + 1] = right
+            push_zones(a, layer, numbers, before, start, end)
             # `not <=` and not `>`: a NaN must win.
             if not out[zone_places.STIFFNESS] <= stiffness:
                 stiffness = out[zone_places.STIFFNESS]
@@ -233,25 +237,36 @@ def fastest(numbers: Any, stiffness: float, speed: float) -> float:
     return (closing if closing > waves else waves) + UNEVEN * speed  # a NaN among the waves stays
 
 
-def kick_nodes(a: Arrays, before: Any, after: Any, node: int, end: int, kick: float, step: float) -> int:
-    """Velocities and displacements of the nodes from ``node`` on that the zones up to ``end`` need; the node to go on from.
+def kick_nodes(a: Arrays, layer: int, node: int, start: int, end: int, kick: float, step: float) -> int:
+    """Velocities and displacements of the nodes from ``node`` on that the zones [start, end) need; the node to go on from.
 
-    This runs ahead of the zone pass by the two nodes that the last zone's limiter looks at, and on to the end of a cache
-    line; going right, it never meets a force that is already new.
+    What the velocities were goes to the spare array, from ``start`` on. This runs ahead of the zone pass by the two nodes
+    that the last zone's limiter looks at, and on to the end of a cache line; going right, it never meets a force that is
+    already new.
     """
-    ahead = min((end + 1) // LINE * LINE + LINE + 1, a.zones)
-    for i in range(node, ahead):
-        after[i + 1] = before[i + 1] + kick * (a.force[i - 1] - a.force[i]) * a.inverse_mass[i]
-        a.displacement[i] += step * after[i + 1]
-    after[0], after[a.zones + 2] = after[2], after[a.zones]  # mirrored: an end zone shares its jump with no neighbour
-    return max(node, ahead)
+    velocity, before, force, displacement = a.velocity, a.spare, a.force, a.displacement
+    ahead = max(min((end + 1) // LINE * LINE + LINE + 1, a.zones), node)
+    while node < ahead:
+        while node >= a.layers[layer * LAYER + FIRST_ZONE] + a.layers[layer * LAYER + ZONES]:
+            layer += 1
+        first = a.layers[layer * LAYER + FIRST_ZONE]
+        last = min(first + a.layers[layer * LAYER + ZONES], ahead) if node > first else node + 1
+        # Within a layer all nodes weigh the same: an array less to go through the memory.
+        inverse_mass = 1.0 / a.numbers[layer * NUMBERS + ZONE_MASS] if node > first else a.inverse_mass[node]
+        for i in range(node, last):
+            before[i - start + 1] = velocity[i + 1]
+            velocity[i + 1] += kick * (force[i - 1] - force[i]) * inverse_mass
+            displacement[i] += step * velocity[i + 1]
+        node = last
+    velocity[0], velocity[a.zones + 2] = velocity[2], velocity[a.zones]  # mirrored: an end zone shares its jump with nobody
+    return ahead
 
 
-def push_zones(a: Arrays, layer: int, numbers: Any, before: Any, after: Any, start: int, end: int) -> None:
-    """Call a layer's zone kernel on some of its zones."""
+def push_zones(a: Arrays, layer: int, numbers: Any, before: Any, start: int, end: int) -> None:
+    """Call a layer's zone kernel on some of its zones; `before` begins with the node on the left of the first."""
     call(
-        a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(after, start),
-        offset(before, start), offset(a.displacement, start), offset(a.energy, start), offset(a.gained, start),
+        a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers,
+        offset(a.velocity, start), before, offset(a.displacement, start), offset(a.energy, start), offset(a.gained, start),
         offset(a.force, start), offset(a.viscosity, start), offset(a.state, start), offset(a.curve, start),
         offset(a.tangents, start), offset(a.stiffnesses, start), offset(a.speeds, start), end - start, a.zones, a.out,
     )  # fmt: skip
