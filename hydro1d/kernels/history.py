@@ -23,6 +23,7 @@ from hydro1d.kernels.layout import (
     PEAK_STRESS,
     RIGHT_FRONT,
     SCRATCH,
+    SETTLED,
     SIZE,
     TIME,
     TOP_STRAIN,
@@ -40,11 +41,11 @@ WINDOW = 12  # zones on either side of a front that its integral measure takes i
 
 
 def record(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
-    """One row of the history, and of the probes. The state is not touched; `centred` takes the velocities at that time."""
+    """One row of the history, and of the probes. The state is not touched; `centred` takes the ends' velocities then."""
     ledger, half = a.ledger, 0.5 * a.ledger[LAST_STEP]
     row = offset(a.rows, place * a.columns)
     work, impulse = centre_ends(a, velocity, centred, half, offset(row, 21))
-    kinetic, momentum, exchange = centre_nodes(a, velocity, centred, half)
+    kinetic, momentum, exchange = sum_nodes(a, velocity, centred, half)
     stored, uncrushed = sum_zones(a)
     internal = stored - 0.5 * half * exchange
     put_in = ledger[FIRST_ENERGY] + max(ledger[LARGEST_INPUT], work)
@@ -91,29 +92,50 @@ def centre_ends(a: Arrays, velocity: Any, centred: Any, half: float, remembered:
     return work, impulse
 
 
-def centre_nodes(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[float, float, float]:
-    """Velocities of the other nodes half a kick on; kinetic energy, momentum, and exchange between nodes and zones.
+def centre_node(a: Arrays, node: int, velocity: Any, centred: Any, half: float) -> float:
+    """Velocity of a node half a kick on; that of an end is known."""
+    if node == 0 or node == a.zones:
+        return centred[node + 1]
+    return velocity[node + 1] + half * (a.force[node - 1] - a.force[node]) * a.inverse_mass[node]
+
+
+def sum_nodes(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[float, float, float]:
+    """Kinetic energy and momentum half a kick on, and the exchange between nodes and zones.
 
     The exchange, Σ v (f_left − f_right) with twice the mean velocity of the half kick, is minus what the forces give to the
     zones: Σ f Δv, summed by parts.
     """
-    zones, force = a.zones, a.force
+    force = a.force
     kinetic, momentum, exchange = 0.0, 0.0, 0.0
-    for i in range(1, zones):
-        pull = force[i - 1] - force[i]
-        speed = velocity[i + 1] + half * pull * a.inverse_mass[i]
-        centred[i + 1] = speed
-        carried = a.mass[i] * speed
-        momentum = accumulate(momentum, carried)
-        kinetic = accumulate(kinetic, carried * speed)
-        exchange = accumulate(exchange, (velocity[i + 1] + speed) * pull)
-    for node in range(0, zones + 1, zones):
-        pull = -force[0] if node == 0 else force[zones - 1]
-        speed = centred[node + 1]
+    for layer in range(a.layer_count):
+        first = a.layers[layer * LAYER + FIRST_ZONE]
+        mass = a.numbers[layer * NUMBERS + ZONE_MASS]  # of each node within the layer
+        inverse_mass, speeds, squares = 1.0 / mass, 0.0, 0.0
+        for i in range(first + 1, first + a.layers[layer * LAYER + ZONES]):
+            pull = force[i - 1] - force[i]
+            speed = velocity[i + 1] + half * pull * inverse_mass
+            speeds = accumulate(speeds, speed)
+            squares = accumulate(squares, speed * speed)
+            exchange = accumulate(exchange, (velocity[i + 1] + speed) * pull)
+        momentum += mass * speeds
+        kinetic += mass * squares
+    for layer in range(a.layer_count + 1):  # nodes between layers, and the ends
+        node = a.zones if layer == a.layer_count else a.layers[layer * LAYER + FIRST_ZONE]
+        pull = (force[node - 1] if node > 0 else 0.0) - (force[node] if node < a.zones else 0.0)
+        speed = centre_node(a, node, velocity, centred, half)
         momentum += a.mass[node] * speed
         kinetic += a.mass[node] * speed * speed
         exchange += (velocity[node + 1] + speed) * pull
     return 0.5 * kinetic, momentum, exchange
+
+
+def sum_settled(a: Arrays) -> None:
+    """The energy of each layer's zones at the last settling: the same for many rows."""
+    for layer in range(a.layer_count):
+        first, energy = a.layers[layer * LAYER + FIRST_ZONE], 0.0
+        for i in range(first, first + a.layers[layer * LAYER + ZONES]):
+            energy = accumulate(energy, a.energy[i])
+        a.numbers[layer * NUMBERS + SETTLED] = energy
 
 
 def sum_zones(a: Arrays) -> tuple[float, float]:
@@ -126,9 +148,9 @@ def sum_zones(a: Arrays) -> tuple[float, float]:
         crushed = crushed_strain(numbers)
         energy, count = 0.0, 0.0
         for i in range(first, first + zones):
-            energy = accumulate(energy, a.energy[i] + a.gained[i])
+            energy = accumulate(energy, a.gained[i])
             count = accumulate(count, 0.0 if a.state[i] > crushed else 1.0)
-        stored += energy * numbers[ZONE_MASS]
+        stored += (numbers[SETTLED] + energy) * numbers[ZONE_MASS]
         if crushed < math.inf:
             length += count * numbers[SIZE]
             crushable += zones * numbers[SIZE]
@@ -140,7 +162,8 @@ def look(a: Arrays, probe: int, velocity: Any, centred: Any, half: float, seen: 
     zone, layer, share = a.probes[1 + 2 * probe], a.probes[2 + 2 * probe], a.probe_weights[probe]
     numbers = offset(a.numbers, layer * NUMBERS)
     stress, gained = offset(a.out, SCRATCH), offset(a.out, SCRATCH + 1)
-    jump = velocity[zone + 1] - velocity[zone + 2] + centred[zone + 1] - centred[zone + 2]
+    left, right = centre_node(a, zone, velocity, centred, half), centre_node(a, zone + 1, velocity, centred, half)
+    jump = velocity[zone + 1] - velocity[zone + 2] + left - right
     gained[0] = a.gained[zone] + 0.5 * half * a.force[zone] * jump / numbers[ZONE_MASS]
     call(
         a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(velocity, zone),
@@ -149,7 +172,7 @@ def look(a: Arrays, probe: int, velocity: Any, centred: Any, half: float, seen: 
     )  # fmt: skip
     moved = (1.0 - share) * a.displacement[zone] + share * a.displacement[zone + 1]
     seen[0] = (1.0 - share) * a.coordinate[zone] + share * a.coordinate[zone + 1] + moved
-    seen[1] = (1.0 - share) * centred[zone + 1] + share * centred[zone + 2]
+    seen[1] = (1.0 - share) * left + share * right
     seen[2] = (a.displacement[zone] - a.displacement[zone + 1]) * numbers[INVERSE_SIZE]
     seen[3] = stress[0]
 

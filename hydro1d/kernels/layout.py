@@ -27,8 +27,10 @@ REACHED, PAUSED, NOT_FINITE, INVERTED, COLLAPSED = range(5)
 # Places in the layer table (integers) and in the layers' numbers behind the zone kernel's own.
 FIRST_ZONE, ZONES, PARAMETERS = range(3)
 LAYER = 3
-CRUSHED_STRAIN, YIELD_STRAIN, TOP_STRAIN, SIZE, ZONE_MASS = range(zone_places.NUMBERS + 1, zone_places.NUMBERS + 6)
-NUMBERS = zone_places.NUMBERS + 6
+CRUSHED_STRAIN, YIELD_STRAIN, TOP_STRAIN, SIZE, ZONE_MASS, SETTLED = range(
+    zone_places.NUMBERS + 1, zone_places.NUMBERS + 7
+)
+NUMBERS = zone_places.NUMBERS + 7
 
 END = 10  # numbers of a `boundaries.base.End`
 

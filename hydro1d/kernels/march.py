@@ -12,7 +12,7 @@ from typing import Any
 
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.ends import FORCE, MEMORY, VELOCITY
-from hydro1d.kernels.history import push_end, record
+from hydro1d.kernels.history import push_end, record, sum_settled
 from hydro1d.kernels.layout import (
     CADENCE,
     CFL,
@@ -93,6 +93,8 @@ def march(
     )  # fmt: skip
     steps, cadence, capacity = int(ledger[STEPS]), int(ledger[CADENCE]), int(ledger[ROWS])
     recorded, taken = 0, 0
+    if cadence > 0 or ledger[ROW_AT_STOP] > 0.0:
+        sum_settled(a)
     ledger[PASSED], ledger[PROFILES], ledger[STOP] = 0.0, 0.0, stops[0]
     status = pass_stops(a) if ledger[TIME] >= ledger[STOP] else PAUSED
     while taken < steps and status == PAUSED and recorded < capacity and not has_enough(ledger):
@@ -258,7 +260,10 @@ def kick_nodes(a: Arrays, layer: int, node: int, start: int, end: int, kick: flo
             velocity[i + 1] += kick * (force[i - 1] - force[i]) * inverse_mass
             displacement[i] += step * velocity[i + 1]
         node = last
-    velocity[0], velocity[a.zones + 2] = velocity[2], velocity[a.zones]  # mirrored: an end zone shares its jump with nobody
+    velocity[0], velocity[a.zones + 2] = (
+        velocity[2],
+        velocity[a.zones],
+    )  # mirrored: an end zone shares its jump with nobody
     return ahead
 
 
@@ -281,6 +286,7 @@ def settle(a: Arrays) -> None:
         total = a.energy[i] + a.gained[i]
         a.gained[i] -= total - a.energy[i]
         a.energy[i] = total
+    sum_settled(a)
 
 
 def close_step(a: Arrays, step: float, stable: float, strain: float, layer: int) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from hydro1d.kernels.history import centre_ends, centre_nodes
+from hydro1d.kernels.history import centre_ends, centre_node
 from hydro1d.kernels.layout import (
     CYCLE,
     FIRST_ZONE,
@@ -32,33 +32,32 @@ def length(zones: int, variables: int) -> int:
 
 
 def take_profile(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
-    """One profile. The state is not touched; `centred` takes the velocities at the time of the stresses."""
+    """One profile. The state is not touched; `centred` takes the ends' velocities at the time of the stresses."""
     zones, half = a.zones, 0.5 * a.ledger[LAST_STEP]
     profile = offset(a.profiles, place * length(zones, a.variables))
     profile[0], profile[1] = a.ledger[TIME], a.ledger[CYCLE]
     centre_ends(a, velocity, centred, half, offset(a.out, REMEMBERED))
-    centre_nodes(a, velocity, centred, half)
     position, speed = offset(profile, HEAD), offset(profile, HEAD + zones + 1)
     moved, strain = offset(profile, HEAD + 2 * (zones + 1)), offset(profile, HEAD + NODE_FIELDS * (zones + 1))
     for i in range(zones + 1):
         position[i] = a.coordinate[i] + a.displacement[i]
-        speed[i] = centred[i + 1]
+        speed[i] = centre_node(a, i, velocity, centred, half)
         moved[i] = a.displacement[i]
     for layer in range(a.layer_count):
-        show_layer(a, layer, velocity, centred, half, strain)
+        show_layer(a, layer, velocity, speed, half, strain)
     state = offset(strain, ZONE_FIELDS * zones)
     for k in range(a.variables * zones):
         state[k] = a.state[k]
 
 
-def show_layer(a: Arrays, layer: int, velocity: Any, centred: Any, half: float, strain: Any) -> None:
+def show_layer(a: Arrays, layer: int, velocity: Any, speed: Any, half: float, strain: Any) -> None:
     """The zones of one layer, from their strain on; energies half a kick on, and stresses with these."""
     first, count = a.layers[layer * LAYER + FIRST_ZONE], a.layers[layer * LAYER + ZONES]
     numbers = offset(a.numbers, layer * NUMBERS)
     stress, viscosity = offset(strain, a.zones), offset(strain, 2 * a.zones)
     density, energy = offset(strain, 3 * a.zones), offset(strain, 4 * a.zones)
     for i in range(first, first + count):
-        jump = velocity[i + 1] - velocity[i + 2] + centred[i + 1] - centred[i + 2]
+        jump = velocity[i + 1] - velocity[i + 2] + speed[i] - speed[i + 1]
         energy[i] = a.gained[i] + 0.5 * half * a.force[i] * jump / numbers[ZONE_MASS]
     call(
         a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(velocity, first),
