@@ -40,18 +40,18 @@ from hydro1d.kernels.zones import INVERSE_SIZE
 WINDOW = 12  # zones on either side of a front that its integral measure takes in
 
 
-def record(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
-    """One row of the history, and of the probes. The state is not touched; `centred` takes the ends' velocities then."""
+def record(a: Arrays, place: int) -> None:
+    """One row of the history, and of the probes. The state is not touched."""
     ledger, half = a.ledger, 0.5 * a.ledger[LAST_STEP]
     row = offset(a.rows, place * a.columns)
-    work, impulse = centre_ends(a, velocity, centred, half, offset(row, 21))
-    kinetic, momentum, exchange = sum_nodes(a, velocity, centred, half)
+    work, impulse = centre_ends(a, half, offset(row, 21))
+    kinetic, momentum, exchange = sum_nodes(a, half)
     stored, uncrushed = sum_zones(a)
     internal = stored - 0.5 * half * exchange
     put_in = ledger[FIRST_ENERGY] + max(ledger[LARGEST_INPUT], work)
     row[0], row[1] = ledger[TIME], ledger[LAST_STEP]
     row[2], row[3] = a.force[0], a.force[a.zones - 1]
-    row[4], row[5] = centred[1], centred[a.zones + 1]
+    row[4], row[5] = a.spare[1], a.spare[a.zones + 1]
     row[6], row[7] = a.coordinate[0] + a.displacement[0], a.coordinate[a.zones] + a.displacement[a.zones]
     row[8], row[9], row[10], row[11] = kinetic, internal, work, ledger[VISCOUS_WORK]
     row[12] = (kinetic + internal - ledger[FIRST_ENERGY] - work) / put_in if put_in > 0.0 else 0.0
@@ -60,52 +60,55 @@ def record(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
     row[18], row[19] = fronts(a)
     row[20] = uncrushed
     for k in range(a.probes[0]):
-        look(a, k, velocity, centred, half, offset(a.probe_rows, (place * a.probes[0] + k) * 4))
+        look(a, k, half, offset(a.probe_rows, (place * a.probes[0] + k) * 4))
 
 
-def push_end(a: Arrays, side: int, velocity: Any, memory: Any, step: float) -> None:
+def push_end(a: Arrays, side: int, memory: Any, step: float) -> None:
     """Call the boundary of a side: `out` holds the new velocity of its node and its force, both inward."""
     node, zone, sign = (0, 0, 1.0) if side == 0 else (a.zones, a.zones - 1, -1.0)
     end = offset(a.end_numbers, side * END)
     end[0], end[1], end[2] = a.ledger[TIME], a.ledger[LAST_STEP], step
-    end[3], end[4] = sign * velocity[node + 1], sign * a.displacement[node]
+    end[3], end[4] = sign * a.velocity[node + 1], sign * a.displacement[node]
     end[5], end[6] = a.mass[node], a.force[zone]
     which = a.layer_count + side
     call(a.addresses, which, offset(a.parameters, a.layers[which * LAYER + PARAMETERS]), end, memory, a.out)
 
 
-def centre_ends(a: Arrays, velocity: Any, centred: Any, half: float, remembered: Any) -> tuple[float, float]:
-    """Velocities of the end nodes half a kick on, and what the boundaries remember; boundary work and impulse up to then."""
+def centre_ends(a: Arrays, half: float, remembered: Any) -> tuple[float, float]:
+    """Velocities of the end nodes half a kick on, and what the boundaries remember; boundary work and impulse up to then.
+
+    The velocities go to the spare array.
+    """
     work, impulse = a.ledger[WORK], a.ledger[IMPULSE]
     for side in range(2):
         node, sign = (0, 1.0) if side == 0 else (a.zones, -1.0)
         scratch = offset(a.out, SCRATCH)
         for k in range(MEMORY):
             scratch[k] = a.memory[side * MEMORY + k]
-        push_end(a, side, velocity, scratch, 0.0)
+        push_end(a, side, scratch, 0.0)
         for k in range(MEMORY):
             remembered[side * MEMORY + k] = scratch[k]
         pushed = a.out[FORCE]
-        centred[node + 1] = sign * a.out[VELOCITY]
-        work += pushed * 0.5 * sign * (velocity[node + 1] + centred[node + 1]) * half
+        a.spare[node + 1] = sign * a.out[VELOCITY]
+        work += pushed * 0.5 * sign * (a.velocity[node + 1] + a.spare[node + 1]) * half
         impulse += sign * pushed * half
     return work, impulse
 
 
-def centre_node(a: Arrays, node: int, velocity: Any, centred: Any, half: float) -> float:
-    """Velocity of a node half a kick on; that of an end is known."""
+def centre_node(a: Arrays, node: int, half: float) -> float:
+    """Velocity of a node half a kick on, after `centre_ends`."""
     if node == 0 or node == a.zones:
-        return centred[node + 1]
-    return velocity[node + 1] + half * (a.force[node - 1] - a.force[node]) * a.inverse_mass[node]
+        return a.spare[node + 1]
+    return a.velocity[node + 1] + half * (a.force[node - 1] - a.force[node]) * a.inverse_mass[node]
 
 
-def sum_nodes(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[float, float, float]:
+def sum_nodes(a: Arrays, half: float) -> tuple[float, float, float]:
     """Kinetic energy and momentum half a kick on, and the exchange between nodes and zones.
 
     The exchange, Σ v (f_left − f_right) with twice the mean velocity of the half kick, is minus what the forces give to the
     zones: Σ f Δv, summed by parts.
     """
-    force = a.force
+    velocity, force = a.velocity, a.force
     kinetic, momentum, exchange = 0.0, 0.0, 0.0
     for layer in range(a.layer_count):
         first = a.layers[layer * LAYER + FIRST_ZONE]
@@ -122,7 +125,7 @@ def sum_nodes(a: Arrays, velocity: Any, centred: Any, half: float) -> tuple[floa
     for layer in range(a.layer_count + 1):  # nodes between layers, and the ends
         node = a.zones if layer == a.layer_count else a.layers[layer * LAYER + FIRST_ZONE]
         pull = (force[node - 1] if node > 0 else 0.0) - (force[node] if node < a.zones else 0.0)
-        speed = centre_node(a, node, velocity, centred, half)
+        speed = centre_node(a, node, half)
         momentum += a.mass[node] * speed
         kinetic += a.mass[node] * speed * speed
         exchange += (velocity[node + 1] + speed) * pull
@@ -157,12 +160,12 @@ def sum_zones(a: Arrays) -> tuple[float, float]:
     return stored, length / crushable if crushable > 0.0 else math.nan
 
 
-def look(a: Arrays, probe: int, velocity: Any, centred: Any, half: float, seen: Any) -> None:
+def look(a: Arrays, probe: int, half: float, seen: Any) -> None:
     """Position, velocity, strain and stress at a probe."""
     zone, layer, share = a.probes[1 + 2 * probe], a.probes[2 + 2 * probe], a.probe_weights[probe]
     numbers = offset(a.numbers, layer * NUMBERS)
     stress, gained = offset(a.out, SCRATCH), offset(a.out, SCRATCH + 1)
-    left, right = centre_node(a, zone, velocity, centred, half), centre_node(a, zone + 1, velocity, centred, half)
+    left, right, velocity = centre_node(a, zone, half), centre_node(a, zone + 1, half), a.velocity
     jump = velocity[zone + 1] - velocity[zone + 2] + left - right
     gained[0] = a.gained[zone] + 0.5 * half * a.force[zone] * jump / numbers[ZONE_MASS]
     call(

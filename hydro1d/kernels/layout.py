@@ -42,11 +42,11 @@ OUT = REMEMBERED + 2 * end_places.MEMORY
 class Arrays(NamedTuple):
     """What the time loop works on.
 
-    Over nodes: displacement, mass, inverse_mass, coordinate; velocity and spare, with a ghost at each end, so node i stands
-    at i + 1. Over zones: energy (specific, at the last settling), gained (since then), force (σ + q), viscosity (q), state
-    (largest strain, then the laws' history, `zones` apart: so many `variables`), and what `zones.foam_kernel` remembers.
-    rows and probe_rows: history as it is recorded. stops: times at which to arrive, each followed by 1 if a profile is to
-    be taken there; profiles: one after the other.
+    Over nodes: displacement, mass, inverse_mass, coordinate; velocity and spare (velocities at another time), with a ghost
+    at each end, so node i stands at i + 1. Over zones: energy (specific, at the last settling), gained (since then), force
+    (σ + q), viscosity (q), state (largest strain, then the laws' history, `zones` apart: so many `variables`), and what
+    `zones.foam_kernel` remembers. rows and probe_rows: history as it is recorded. stops: times at which to arrive, each
+    followed by 1 if a profile is to be taken there; profiles: one after the other.
     """
 
     ledger: Any

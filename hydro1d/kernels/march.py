@@ -103,12 +103,12 @@ def march(
         if int(ledger[CYCLE]) % SETTLING == 0:
             settle(a)
         if cadence > 0 and int(ledger[CYCLE]) % cadence == 0 and status <= PAUSED:
-            record(a, velocity, spare, recorded)
+            record(a, recorded)
             recorded += 1
         if status == REACHED:
             status = pass_stops(a)
     if ledger[ROW_AT_STOP] > 0.0 and status == REACHED and (recorded == 0 or int(ledger[CYCLE]) % max(cadence, 1) != 0):
-        record(a, velocity, spare, recorded)
+        record(a, recorded)
         recorded += 1
     for layer in range(layer_count):  # what comes next may be another state: nothing remembered holds for it
         numbers[layer * NUMBERS + zone_places.AFRESH] = 1.0
@@ -122,7 +122,7 @@ def pass_stops(a: Arrays) -> int:
     while ledger[TIME] >= ledger[STOP]:
         stop = int(ledger[PASSED])
         if a.stops[2 * stop + 1] > 0.0:
-            take_profile(a, a.velocity, a.spare, int(ledger[PROFILES]))
+            take_profile(a, int(ledger[PROFILES]))
             ledger[PROFILES] += 1.0
         ledger[PASSED] += 1.0
         if ledger[PASSED] >= ledger[STOPS]:
@@ -168,7 +168,7 @@ def kick_ends(a: Arrays, kick: float, step: float) -> None:
     ledger = a.ledger
     for side in range(2):
         node, sign = (0, 1.0) if side == 0 else (a.zones, -1.0)
-        push_end(a, side, a.velocity, offset(a.memory, side * MEMORY), step)
+        push_end(a, side, offset(a.memory, side * MEMORY), step)
         velocity, pushed = a.out[VELOCITY], a.out[FORCE]
         add(ledger, WORK, WORK_LOST, pushed * 0.5 * (sign * a.velocity[node + 1] + velocity) * kick)
         a.velocity[node + 1] = sign * velocity

@@ -31,29 +31,29 @@ def length(zones: int, variables: int) -> int:
     return HEAD + NODE_FIELDS * (zones + 1) + (ZONE_FIELDS + variables) * zones
 
 
-def take_profile(a: Arrays, velocity: Any, centred: Any, place: int) -> None:
-    """One profile. The state is not touched; `centred` takes the ends' velocities at the time of the stresses."""
+def take_profile(a: Arrays, place: int) -> None:
+    """One profile. The state is not touched."""
     zones, half = a.zones, 0.5 * a.ledger[LAST_STEP]
     profile = offset(a.profiles, place * length(zones, a.variables))
     profile[0], profile[1] = a.ledger[TIME], a.ledger[CYCLE]
-    centre_ends(a, velocity, centred, half, offset(a.out, REMEMBERED))
+    centre_ends(a, half, offset(a.out, REMEMBERED))
     position, speed = offset(profile, HEAD), offset(profile, HEAD + zones + 1)
     moved, strain = offset(profile, HEAD + 2 * (zones + 1)), offset(profile, HEAD + NODE_FIELDS * (zones + 1))
     for i in range(zones + 1):
         position[i] = a.coordinate[i] + a.displacement[i]
-        speed[i] = centre_node(a, i, velocity, centred, half)
+        speed[i] = centre_node(a, i, half)
         moved[i] = a.displacement[i]
     for layer in range(a.layer_count):
-        show_layer(a, layer, velocity, speed, half, strain)
+        show_layer(a, layer, speed, half, strain)
     state = offset(strain, ZONE_FIELDS * zones)
     for k in range(a.variables * zones):
         state[k] = a.state[k]
 
 
-def show_layer(a: Arrays, layer: int, velocity: Any, speed: Any, half: float, strain: Any) -> None:
+def show_layer(a: Arrays, layer: int, speed: Any, half: float, strain: Any) -> None:
     """The zones of one layer, from their strain on; energies half a kick on, and stresses with these."""
     first, count = a.layers[layer * LAYER + FIRST_ZONE], a.layers[layer * LAYER + ZONES]
-    numbers = offset(a.numbers, layer * NUMBERS)
+    numbers, velocity = offset(a.numbers, layer * NUMBERS), a.velocity
     stress, viscosity = offset(strain, a.zones), offset(strain, 2 * a.zones)
     density, energy = offset(strain, 3 * a.zones), offset(strain, 4 * a.zones)
     for i in range(first, first + count):
