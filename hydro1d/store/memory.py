@@ -28,6 +28,9 @@ class MemorySource:
         """Values, SI."""
         return self._arrays[path]
 
+    def forget(self) -> None:
+        """Nothing: there is no file to read it from."""
+
     def describe(self, path: str) -> Field:
         """Dimensions, unit, description."""
         return self._fields[path]

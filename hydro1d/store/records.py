@@ -104,6 +104,11 @@ class Table:
             self.start += self.rows
             self._new_block()
 
+    def drop_pieces(self) -> None:
+        """Give up what is compressed: a file has it."""
+        for block in self.blocks:
+            block.pieces = []
+
     def column(self, index: int) -> np.ndarray | None:
         """Everything recorded of one field, (total, *tail); None where numbers have been given up."""
         parts = [block.values[index] for block in self.blocks if block.values is not None]

@@ -29,6 +29,9 @@ class Source(Protocol):
     def array(self, path: str) -> np.ndarray:
         """Values, SI."""
 
+    def forget(self) -> None:
+        """Keep no array that can be had again."""
+
     def describe(self, path: str) -> Field:
         """Dimensions, unit, description."""
 
@@ -176,7 +179,8 @@ class Run:
         return data, coordinates
 
     def close(self) -> None:
-        """Forget what was read. The file is not held open between reads, so nothing else is to be done."""
+        """Forget what was read or is in memory since it was written. The file is not held open between reads."""
+        self._source.forget()
         for group in (self._root, self.history, self.probes):
             group._arrays.clear()
 

@@ -120,6 +120,10 @@ class FileSource:
                 raise FileProblem(f"{self.name} is damaged: the values of {path} do not fit their checksum")
             return values.astype(bool) if "truth" in dataset.attrs else values
 
+    def forget(self) -> None:
+        """Read everything from now on."""
+        self._kept = None
+
     def rows(self, path: str, step: int) -> Iterator[np.ndarray]:
         """Rows of a float64 dataset, `step` at a time; the checksum is compared after the last."""
         start, total, crc, expected = 0, 1, 0, 0

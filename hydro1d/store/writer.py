@@ -159,6 +159,8 @@ class Hdf5Sink(Recorder):
             self._publish(target, status, attributes, last=True)
         finally:
             self.abort()
+        for table in self.tables:
+            table.drop_pieces()
         if target != self.partial_path:
             self._remove_partial()
         return target

@@ -5,6 +5,7 @@ import made_up
 import numpy as np
 import pytest
 
+from hydro1d.errors import FileProblem
 from hydro1d.store import Hdf5Sink, MemorySink, open_run
 
 
@@ -129,3 +130,7 @@ def test_what_is_still_in_memory_is_what_the_file_holds(tmp_path, buffer_bytes):
     for name in (*read, *(f"{group}/{name}" for group in ("history", "probes") for name in getattr(read, group))):
         assert kept[name].dtype == read[name].dtype, name
         assert np.array_equal(kept[name], read[name], equal_nan=read[name].dtype.kind == "f"), name
+    kept.close()
+    (tmp_path / "a.h5").unlink()
+    with pytest.raises(FileProblem):
+        kept["stress"]
