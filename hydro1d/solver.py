@@ -1,4 +1,4 @@
-"""The run of a column from one output event to the next."""
+"""The run of a column, stretch by stretch past its output times."""
 
 from __future__ import annotations
 
@@ -174,7 +174,7 @@ def solve(
 
 
 class _Run:
-    """A run under way: the events ahead, and the clock of the loop."""
+    """A run under way: the stops ahead, and the clock of the loop."""
 
     def __init__(
         self,

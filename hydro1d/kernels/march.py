@@ -1,4 +1,4 @@
-"""The time loop: many steps in one call, from one event to the next. Compiled once, for all laws and boundaries.
+"""The time loop: many steps in one call, past many output times. Compiled once, for all laws and boundaries.
 
 Leapfrog (von Neumann & Richtmyer 1950, doi:10.1063/1.1699639) in its kick–drift form: forces at n take velocities from
 n − ½ to n + ½, velocities take displacements and strains to n + 1. Kernels of laws and boundaries are called by their

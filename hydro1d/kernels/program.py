@@ -116,7 +116,7 @@ class Program:
         return self.out
 
     def _arrays(self, state: State) -> layout.Arrays:
-        """Where everything is, found once for a state: for a frame this would take longer than its numbers do."""
+        """Where everything is, found once for a state: for a short call this would take longer than its steps do."""
         if self._known is not None and self._known[0] is state:
             return self._known[1]
         column, nowhere = self.column, np.empty(0)
