@@ -48,6 +48,9 @@ class Sink(Protocol):
     def history(self, rows: np.ndarray, probes: np.ndarray) -> None:
         """Take rows of history (rows, columns) and of probes (rows, probes, 4)."""
 
+    def flush(self) -> None:
+        """All records up to some time have been handed over: what there is makes sense as it stands."""
+
     def checkpoint(self, state: State) -> object:
         """Take a state to restart from; everything up to its time has been handed over."""
 
@@ -219,11 +222,12 @@ class _Run:
         return self.outcome("complete")
 
     def hand_over(self) -> None:
-        """What the last call recorded, the profiles first: a partial result holds all of them up to its last row."""
-        for profile in self.program.profiles(self.state):
-            self.sink.profile(frame(self.column, profile))
+        """What the last call recorded."""
         if self.state.ledger[layout.ROWS] > 0:
             self.sink.history(*self.program.recorded(self.state))
+        for profile in self.program.profiles(self.state):
+            self.sink.profile(frame(self.column, profile))
+        self.sink.flush()
 
     def stretch(self) -> int:
         """One call of the time loop. Where it breaks down, the blocks before that stand; the block itself is tried again."""

@@ -85,6 +85,9 @@ class Profiles:
         """The last row."""
         self.row = rows[-1]
 
+    def flush(self) -> None:
+        """Nothing."""
+
     def checkpoint(self, state) -> None:
         """Nothing."""
 

@@ -150,6 +150,9 @@ class _Nowhere:
     def history(self, rows: object, probes: object) -> None:
         """Not kept."""
 
+    def flush(self) -> None:
+        """Nothing to write."""
+
     def checkpoint(self, state: object) -> None:
         """Not kept."""
 

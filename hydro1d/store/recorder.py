@@ -69,6 +69,9 @@ class Recorder:
     def recorded(self) -> None:
         """Called after each record."""
 
+    def flush(self) -> None:
+        """Called when all records up to some time are there; nothing to do where nothing is kept on disk."""
+
     def relieve(self) -> None:
         """Called while many records are copied: memory may be freed."""
 

@@ -96,9 +96,12 @@ class Hdf5Sink(Recorder):
     # What the solver calls -----------------------------------------------------------------------------------------
 
     def recorded(self) -> None:
-        """After each record: write when enough has gathered or enough time has passed."""
+        """After each record: write when enough has gathered."""
         self.relieve()  # first, for what must leave memory now is compressed by all threads
         self._background.compress(self.tables)
+
+    def flush(self) -> None:
+        """Publish a partial file when enough time has passed since the last."""
         if time.monotonic() > self._due:
             self.publish_partial()
 

@@ -39,6 +39,9 @@ class Recording:
         self._blocks.append(np.array(rows))
         self._probes.append(np.array(probes))
 
+    def flush(self) -> None:
+        """Nothing to write."""
+
     def checkpoint(self, state: SolverState) -> None:
         """Nothing to keep."""
 

@@ -32,6 +32,9 @@ class Kept:
         self.rows.append(rows)
         self.probes.append(probes)
 
+    def flush(self):
+        pass
+
     def checkpoint(self, state):
         self.states.append(state.copy())
 

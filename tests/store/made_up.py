@@ -94,6 +94,7 @@ def record(sink: Any, first: int, last: int, zones: int = 50, probes: int = 2) -
     for number in range(first, last):
         sink.profile(frame(number, zones))
         sink.history(*rows(number, probes=probes))
+        sink.flush()
 
 
 def expected(profiles: int, zones: int = 50, probes: int = 2) -> dict[str, np.ndarray]:

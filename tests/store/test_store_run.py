@@ -159,6 +159,7 @@ probes = np.zeros((1000, 2, 4))
 with Hdf5Sink(sys.argv[1], made_up.layout(), "", {}, buffer_bytes=4 << 20, flush_seconds=1.0) as sink:
     for number in range(int(sys.argv[2])):
         sink.history(block, probes)
+        sink.flush()
         if number == int(sys.argv[2]) // 4:
             before = peak()
     sink.finish("complete", 1, 0.0)

@@ -100,6 +100,7 @@ def noise(sink, profiles):
         frame = made_up.frame(number)
         frame.fields = {name: rng.standard_normal(values.shape) for name, values in frame.fields.items()}
         sink.profile(frame)
+        sink.flush()
 
 
 ROUTES = [{}, {"buffer_bytes": 50_000}, {"flush_seconds": 0.0}, {"buffer_bytes": 50_000, "flush_seconds": 0.0}]
