@@ -31,6 +31,7 @@ COMMANDS = {
 }
 PROGRAM = "hydro1d"
 DONE, FAILED, USAGE, BROKEN_DOWN, FILE_PROBLEM, INTERRUPTED = 0, 1, 2, 3, 4, 130
+GARBAGE = 100_000  # objects made and not freed before Python looks for garbage among them
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -106,6 +107,9 @@ def _execute(name: str, arguments: list[str]) -> int:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     # What is left at the end goes with the process: Python need not look through it for garbage, which takes long.
     atexit.register(gc.freeze)
+    # Nor a hundred times while modules are imported, whose objects all stay.
+    thresholds = gc.get_threshold()
+    gc.set_threshold(GARBAGE, *thresholds[1:])
     previous = _interrupt_on_sigterm()
     try:
         module = _module(name)
@@ -117,6 +121,7 @@ def _execute(name: str, arguments: list[str]) -> int:
                 warnings.simplefilter("ignore")  # a library's remarks to programmers are not for standard error
             return int(module.run(options) or DONE)
     finally:
+        gc.set_threshold(*thresholds)
         if previous is not None:
             signal.signal(signal.SIGTERM, previous)
 
