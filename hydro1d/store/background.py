@@ -16,13 +16,15 @@ class Background:
         """With one of ``threads`` or one processor nothing is done here; `records.compress_all` does it at the end."""
         self._pool = ThreadPoolExecutor(1) if (threads or threads_here()) > 1 else None
         self._jobs: list[tuple[Future, Block | None]] = []
-        if self._pool is not None:
-            self._jobs.append((self._pool.submit(importlib.import_module, "hydro1d.store.image"), None))
+        self._imports = True  # not before the loop: until then the interpreter is needed elsewhere
 
     def compress(self, tables: list[Table]) -> None:
-        """Take the blocks that have become full."""
+        """Take the blocks that have become full; import h5py when first called."""
         if self._pool is None:
             return
+        if self._imports:
+            self._jobs.append((self._pool.submit(importlib.import_module, "hydro1d.store.image"), None))
+            self._imports = False
         for table in tables:
             for block in table.blocks:
                 if not block.pieces and not block.taken:
