@@ -43,7 +43,7 @@ class Sink(Protocol):
     """Where results go."""
 
     def profile(self, frame: Frame) -> None:
-        """Take the profiles at one time."""
+        """Take the profiles at one time; the arrays are views of what one call recorded."""
 
     def history(self, rows: np.ndarray, probes: np.ndarray) -> None:
         """Take rows of history (rows, columns) and of probes (rows, probes, 4)."""
@@ -264,7 +264,9 @@ class _Run:
     def steps_per_call(self) -> int:
         """So many that the user does not wait and the rows fit, up to a multiple of `BLOCK`."""
         length = max(ZONE_STEPS_PER_CALL // self.column.zones // BLOCK, 1) * BLOCK
-        length = min(length, self.program.row_capacity * self.column.history_every or length)
+        length = max(
+            min(length, self.program.row_capacity * self.column.history_every or length), BLOCK
+        )  # full rows end it too
         end = self.state.cycle + length
         if self.plan.cycles is not None:
             end = min(end, (self.state.cycle // self.plan.cycles + 1) * self.plan.cycles + BLOCK - 1)
@@ -291,7 +293,8 @@ class _Run:
         return Outcome(status, self.state.cycle, self.state.time, self.loop_seconds, message, zone, state=self.state)
 
     def broken(self, status: int) -> Outcome:
-        """Say which zone broke down, and why."""
+        """Say which zone broke down, and why; what the last attempt recorded is handed over, and the state it ended in."""
+        self.hand_over()
         state = self.state
         strain = -np.diff(state.displacement) / np.diff(self.column.node_coordinate)
         self.program.advance_past(state, [(state.time, True)], steps=0, row_at_stop=False)

@@ -124,6 +124,10 @@ class FileSource:
         """Read everything from now on."""
         self._kept = None
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Without what is in memory: another process has the file."""
+        return {**self.__dict__, "_kept": None}
+
     def rows(self, path: str, step: int) -> Iterator[np.ndarray]:
         """Rows of a float64 dataset, `step` at a time; the checksum is compared after the last."""
         start, total, crc, expected = 0, 1, 0, 0

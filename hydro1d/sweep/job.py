@@ -16,8 +16,8 @@ from hydro1d.column import Column
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import DeckError, Hydro1dError
 from hydro1d.kernels.program import Program
+from hydro1d.solver import BLOCK, solve
 from hydro1d.solver import Outcome as Ending
-from hydro1d.solver import solve
 from hydro1d.store import Layout, MemorySink, Run
 from hydro1d.sweep.outcome import parse_outcome
 from hydro1d.sweep.quantity import parse_quantity
@@ -107,14 +107,14 @@ class _Watch(MemorySink):
 def simulate(
     deck: Deck, outcomes: Sequence[str] = (), asked_to_stop: Callable[[], bool] = lambda: False
 ) -> tuple[Run, Ending]:
-    """Run a deck in memory, also to its breakdown; stop when every one of ``outcomes`` has come to yes "
-    "for good."""
+    """Run a deck in memory, also to its breakdown; stop when every one of ``outcomes`` has come to yes for good."""
     column = column_of(deck)
     looks = [parse_outcome(text).settled(deck) for text in outcomes]
     sink = _Watch(column, looks)
     rows = _ROWS
     if looks and None not in looks:
-        rows = int(np.clip(_WORK_PER_LOOK // (column.zones * column.history_every), 1, _ROWS))
+        least = -(-BLOCK // column.history_every)  # of a stretch that ends where the next may be tried again from
+        rows = int(np.clip(_WORK_PER_LOOK // (column.zones * column.history_every), least, _ROWS))
     program = Program(column, rows)
     ending = solve(column, sink, program=program, asked_to_stop=lambda: sink.decided or asked_to_stop())
     if ending.status == "failed" and ending.state is not None:  # what was reached up to there counts

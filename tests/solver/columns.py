@@ -52,7 +52,7 @@ def layer(law=FOAM, thickness=1.0, zones=100, velocity=0.0, material="foam"):
 
 def run(layers, left=PULSE, right=None, end=8e-3, state=None, **options):
     """Solve and return (outcome, what was kept)."""
-    solving = {key: options.pop(key) for key in ("checkpoints", "asked_to_stop") if key in options}
+    solving = {key: options.pop(key) for key in ("checkpoints", "asked_to_stop", "program") if key in options}
     column = build_column(layers, left, right or Wall(), end=end, **options)
     kept = Kept()
     kept.variables = column.history_variables

@@ -83,3 +83,22 @@ def test_a_block_that_breaks_down_is_tried_again_wherever_the_run_is_cut(profile
     for other in steps:
         for name, values in whole.items():
             assert np.array_equal(values, other[name]), name
+
+
+class Brittle(Law):
+    """A law without an answer beyond 5 % strain."""
+
+    def point(self, strain, largest, rate, energy, history):
+        return (1e6 * strain if strain < 0.05 else float("nan")), 1e6, 1e6, True, history
+
+
+def test_all_that_was_asked_for_up_to_the_breakdown_is_handed_over():
+    times = np.linspace(0.0, 1e-3, 400)
+    outcome, kept = run(
+        [layer(Brittle(density=100.0), 0.1, 10)], Piston(velocity=10.0), end=1e-3, profile_times=times, history=1
+    )
+    assert outcome.status == "failed"
+    *asked, last = [frame.time for frame in kept.frames]
+    assert asked == times[times < outcome.time].tolist() and last == outcome.time
+    assert np.array_equal(kept.column("time"), np.unique(kept.column("time")))
+    assert outcome.cycles - len(kept.column("time")) <= 1  # every cycle but the one that broke down, and t = 0

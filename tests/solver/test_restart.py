@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from columns import FOAM, PULSE, layer, run
 
 from hydro1d import solver
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
+from hydro1d.column import build_column
+from hydro1d.kernels.program import Program
 from hydro1d.solver import CheckpointPlan
 from hydro1d.state import State
 
@@ -58,3 +61,13 @@ def test_a_stretch_that_passes_many_stops_takes_the_same_profiles_as_one_that_en
         assert (one.time, one.cycle) == (other.time, other.cycle)
         for name, values in one.fields.items():
             assert np.array_equal(values, other.fields[name]), name
+
+
+@pytest.mark.parametrize("capacity", [1, 3, 40])
+def test_tables_that_hold_few_rows_give_all_of_them(capacity):
+    options = {"end": 1e-3, "history": 2}
+    _, plain = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), **options)
+    column = build_column([layer(FOAM, 1.0, 60)], PULSE, Wall(), **options)
+    _, few = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), program=Program(column, capacity), **options)
+    assert max(len(rows) for rows in few.rows) <= capacity + 1
+    assert np.array_equal(np.concatenate(few.rows), np.concatenate(plain.rows), equal_nan=True)

@@ -2,6 +2,7 @@
 
 import gc
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -189,3 +190,12 @@ def test_reading_from_several_threads(tmp_path):
     [thread.join() for thread in threads]
     assert len(set(results)) == 1 and len(results) == 8
     gc.collect()
+
+
+def test_a_run_goes_to_another_process_without_what_it_has_in_memory(tmp_path):
+    sink = Hdf5Sink(tmp_path / "a.h5", made_up.layout(), made_up.DECK_TEXT, made_up.RESOLVED)
+    made_up.record(sink, 0, 40)
+    run = open_run(sink.finish("complete", 1, 0.0), kept=sink.kept)
+    packed = pickle.dumps(run)
+    assert len(packed) < run["stress"].nbytes
+    assert np.array_equal(pickle.loads(packed)["stress"], run["stress"])
