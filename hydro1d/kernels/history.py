@@ -165,19 +165,29 @@ def look(a: Arrays, probe: int, half: float, seen: Any) -> None:
     zone, layer, share = a.probes[1 + 2 * probe], a.probes[2 + 2 * probe], a.probe_weights[probe]
     numbers = offset(a.numbers, layer * NUMBERS)
     stress, gained = offset(a.out, SCRATCH), offset(a.out, SCRATCH + 1)
-    left, right, velocity = centre_node(a, zone, half), centre_node(a, zone + 1, half), a.velocity
-    jump = velocity[zone + 1] - velocity[zone + 2] + left - right
-    gained[0] = a.gained[zone] + 0.5 * half * a.force[zone] * jump / numbers[ZONE_MASS]
-    call(
-        a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(velocity, zone),
-        offset(velocity, zone), offset(a.displacement, zone), offset(a.energy, zone), gained, stress,
-        a.out, offset(a.state, zone), a.out, a.out, a.out, a.out, -1, a.zones, a.out,
-    )  # fmt: skip
+    left, right = centre_node(a, zone, half), centre_node(a, zone + 1, half)
+    gained[0] = centre_gain(a, zone, left, right, half, numbers[ZONE_MASS])
+    observe(a, layer, zone, 1, gained, stress)
     moved = (1.0 - share) * a.displacement[zone] + share * a.displacement[zone + 1]
     seen[0] = (1.0 - share) * a.coordinate[zone] + share * a.coordinate[zone + 1] + moved
     seen[1] = (1.0 - share) * left + share * right
     seen[2] = (a.displacement[zone] - a.displacement[zone + 1]) * numbers[INVERSE_SIZE]
     seen[3] = stress[0]
+
+
+def centre_gain(a: Arrays, zone: int, left: float, right: float, half: float, mass: float) -> float:
+    """What a zone has gained half a kick on, where its nodes then move at `left` and `right`."""
+    jump = a.velocity[zone + 1] - a.velocity[zone + 2] + left - right
+    return a.gained[zone] + 0.5 * half * a.force[zone] * jump / mass
+
+
+def observe(a: Arrays, layer: int, first: int, count: int, gained: Any, stress: Any) -> None:
+    """Stress alone of ``count`` zones of a layer from ``first`` on, which have `gained` so much."""
+    call(
+        a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), offset(a.numbers, layer * NUMBERS),
+        offset(a.velocity, first), offset(a.velocity, first), offset(a.displacement, first), offset(a.energy, first),
+        gained, stress, a.out, offset(a.state, first), a.out, a.out, a.out, a.out, -count, a.zones, a.out,
+    )  # fmt: skip
 
 
 def crushed_strain(numbers: Any) -> float:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from hydro1d.kernels.history import centre_ends, centre_node
+from hydro1d.kernels.history import centre_ends, centre_gain, centre_node, observe
 from hydro1d.kernels.layout import (
     CYCLE,
     FIRST_ZONE,
     LAST_STEP,
     LAYER,
     NUMBERS,
-    PARAMETERS,
     REMEMBERED,
     SIZE,
     TIME,
@@ -19,7 +18,7 @@ from hydro1d.kernels.layout import (
     ZONES,
     Arrays,
 )
-from hydro1d.kernels.primitives import call, offset
+from hydro1d.kernels.primitives import offset
 from hydro1d.kernels.zones import DENSITY
 
 HEAD = 2  # time and cycle
@@ -53,17 +52,12 @@ def take_profile(a: Arrays, place: int) -> None:
 def show_layer(a: Arrays, layer: int, speed: Any, half: float, strain: Any) -> None:
     """The zones of one layer, from their strain on; energies half a kick on, and stresses with these."""
     first, count = a.layers[layer * LAYER + FIRST_ZONE], a.layers[layer * LAYER + ZONES]
-    numbers, velocity = offset(a.numbers, layer * NUMBERS), a.velocity
+    numbers = offset(a.numbers, layer * NUMBERS)
     stress, viscosity = offset(strain, a.zones), offset(strain, 2 * a.zones)
     density, energy = offset(strain, 3 * a.zones), offset(strain, 4 * a.zones)
     for i in range(first, first + count):
-        jump = velocity[i + 1] - velocity[i + 2] + speed[i] - speed[i + 1]
-        energy[i] = a.gained[i] + 0.5 * half * a.force[i] * jump / numbers[ZONE_MASS]
-    call(
-        a.addresses, layer, offset(a.parameters, a.layers[layer * LAYER + PARAMETERS]), numbers, offset(velocity, first),
-        offset(velocity, first), offset(a.displacement, first), offset(a.energy, first), offset(energy, first),
-        offset(stress, first), a.out, offset(a.state, first), a.out, a.out, a.out, a.out, -count, a.zones, a.out,
-    )  # fmt: skip
+        energy[i] = centre_gain(a, i, speed[i], speed[i + 1], half, numbers[ZONE_MASS])
+    observe(a, layer, first, count, offset(energy, first), offset(stress, first))
     for i in range(first, first + count):
         strain[i] = (a.displacement[i] - a.displacement[i + 1]) / numbers[SIZE]
         viscosity[i] = a.force[i] - stress[i]
