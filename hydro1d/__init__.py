@@ -16,11 +16,11 @@ if TYPE_CHECKING:  # for type checkers and editors; at run time __getattr__ does
 
     from hydro1d.api import run  # noqa: F401
     from hydro1d.boundaries.base import Boundary, End  # noqa: F401
-    from hydro1d.boundaries.pulses.base import Pulse  # noqa: F401
+    from hydro1d.components.parameters import above, at_least, derived, fraction, not_negative, number, pairs, positive  # noqa: F401
     from hydro1d.deck import Deck, Layer, load_deck  # noqa: F401
     from hydro1d.errors import BreakdownError, DeckError, FileProblem, Hydro1dError, Interrupted  # noqa: F401
     from hydro1d.laws.base import Foam, Law, PlateauFoam  # noqa: F401
-    from hydro1d.parameters import above, at_least, derived, fraction, not_negative, number, pairs, positive  # noqa: F401
+    from hydro1d.loads.base import Pulse  # noqa: F401
     from hydro1d.store import Run, open_run  # noqa: F401
 
 # Modules are loaded when a name is first used: `hydro1d --help` and plotting need few of them.
@@ -37,18 +37,18 @@ _HOME = {
     "Law": "laws.base",
     "Layer": "deck",
     "PlateauFoam": "laws.base",
-    "Pulse": "boundaries.pulses.base",
+    "Pulse": "loads.base",
     "Run": "store",
-    "above": "parameters",
-    "at_least": "parameters",
-    "derived": "parameters",
-    "fraction": "parameters",
+    "above": "components.parameters",
+    "at_least": "components.parameters",
+    "derived": "components.parameters",
+    "fraction": "components.parameters",
     "load_deck": "deck",
-    "not_negative": "parameters",
-    "number": "parameters",
+    "not_negative": "components.parameters",
+    "number": "components.parameters",
     "open_run": "store",
-    "pairs": "parameters",
-    "positive": "parameters",
+    "pairs": "components.parameters",
+    "positive": "components.parameters",
     "run": "api",
 }
 

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hydro1d.column import Column, build_column
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import BreakdownError, FileProblem, Interrupted
 from hydro1d.interrupt import interruptible
@@ -14,8 +13,9 @@ from hydro1d.kernels import layout
 from hydro1d.kernels.build import fingerprint
 from hydro1d.kernels.program import Program
 from hydro1d.laws.check import check_law
-from hydro1d.solver import CheckpointPlan, Outcome, initial_state, solve
-from hydro1d.state import State
+from hydro1d.solver.column import Column, build_column
+from hydro1d.solver.driver import CheckpointPlan, Outcome, initial_state, solve
+from hydro1d.solver.state import State
 
 if TYPE_CHECKING:
     from hydro1d.store import Run

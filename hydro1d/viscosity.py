@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from hydro1d.parameters import Component, not_negative
+from hydro1d.components.parameters import Component, not_negative
 
 
 class Viscosity(Component):

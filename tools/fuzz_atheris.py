@@ -15,7 +15,9 @@ from pathlib import Path
 
 import atheris
 
-with atheris.instrument_imports(include=["hydro1d.deck", "hydro1d.units", "hydro1d.tables", "hydro1d.parameters"]):
+with atheris.instrument_imports(
+    include=["hydro1d.deck", "hydro1d.components.units", "hydro1d.components.tables", "hydro1d.components.parameters"]
+):
     from hydro1d.deck import load_deck
     from hydro1d.errors import Hydro1dError
 

@@ -17,9 +17,7 @@ import numpy as np
 from hydro1d import analytic
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.constant import Constant
 from hydro1d.boundaries.transmitting import Transmitting
-from hydro1d.column import build_column
 from hydro1d.kernels import layout
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.epph_tangent import EPPHTangent
@@ -28,7 +26,9 @@ from hydro1d.laws.rph import RPH
 from hydro1d.laws.rppl import RPPL
 from hydro1d.laws.table import Table
 from hydro1d.laws.trilinear import Trilinear
-from hydro1d.solver import solve
+from hydro1d.loads.constant import Constant
+from hydro1d.solver.column import build_column
+from hydro1d.solver.driver import solve
 from hydro1d.viscosity import Viscosity
 
 FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}

@@ -51,7 +51,7 @@ def answers(law, loads) -> np.ndarray:
 
 def law(name: str, top: float | None = None, back: float = 0.55) -> None:
     """Loading curve of a law and one unloading, with the values of EXAMPLES."""
-    from hydro1d.plugins import find
+    from hydro1d.components.plugins import find
 
     made = find("law", name)(**EXAMPLES[name])
     if top is None:
@@ -74,7 +74,7 @@ def law(name: str, top: float | None = None, back: float = 0.55) -> None:
 
 def pulses() -> None:
     """The shapes of the pulses."""
-    from hydro1d.plugins import find
+    from hydro1d.components.plugins import find
 
     shapes = {
         "constant": {"peak": 1.0}, "rectangular": {"peak": 1.0, "duration": 1.0},

@@ -41,8 +41,8 @@ class MarkdownDirective(SphinxDirective):
 
 def component(kind: str, name: str) -> type:
     """The class of a law, boundary, pulse or section."""
+    from hydro1d.components.plugins import find
     from hydro1d.deck import model
-    from hydro1d.plugins import find
     from hydro1d.viscosity import Viscosity
 
     if kind == "foam":
@@ -164,7 +164,7 @@ class Units(MarkdownDirective):
 
     def markdown(self) -> Iterable[str]:
         """A table by dimension."""
-        from hydro1d.unit_table import KINDS
+        from hydro1d.components.unit_table import KINDS
 
         return table(("quantity", "for example"), [(text, units) for text, units in KINDS.values()])
 

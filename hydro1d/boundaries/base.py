@@ -11,7 +11,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from hydro1d.parameters import Component
+from hydro1d.components.parameters import Component
 
 
 class End(NamedTuple):

@@ -6,8 +6,8 @@ import numpy as np
 from pydantic import model_validator
 
 from hydro1d.boundaries.base import Boundary, End, reaction
-from hydro1d.boundaries.pulses.base import check_times, interpolate
-from hydro1d.parameters import derived, number, pairs
+from hydro1d.components.parameters import derived, number, pairs
+from hydro1d.loads.base import check_times, interpolate
 
 
 class Piston(Boundary):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hydro1d.boundaries.base import Boundary, End, free_velocity
-from hydro1d.boundaries.pulses.base import Pulse
+from hydro1d.loads.base import Pulse
 
 
 class Pressure(Boundary):

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from hydro1d.boundaries.base import Boundary, End, free_velocity
-from hydro1d.parameters import number, positive
+from hydro1d.components.parameters import number, positive
 
 
 class Striker(Boundary):

@@ -89,8 +89,8 @@ def _efficiency(found: Efficiency) -> list[str]:
 
 def _unit(args: argparse.Namespace, column: str, wanted: str) -> str:
     """The unit given for a column, if it is one of the right kind."""
+    from hydro1d.components.units import convert
     from hydro1d.errors import DeckError
-    from hydro1d.units import convert
 
     text = str(getattr(args, f"{column}_unit"))
     try:
@@ -102,8 +102,8 @@ def _unit(args: argparse.Namespace, column: str, wanted: str) -> str:
 
 
 def _density(text: str | None) -> float | None:
+    from hydro1d.components.units import convert
     from hydro1d.errors import DeckError
-    from hydro1d.units import convert
 
     if text is None:
         return None

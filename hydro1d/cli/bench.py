@@ -17,7 +17,7 @@ def run(args: argparse.Namespace) -> None:
     import os
 
     os.environ.pop("NUMBA_DISABLE_JIT", None)  # the speed of the interpreter is not what is asked for
-    from hydro1d.bench import report
+    from hydro1d.benchmarks import report
 
     found = report.run(args.quick, (lambda _: None) if args.json else (lambda text: print(text, flush=True)))
     if args.json:

@@ -65,8 +65,8 @@ def _end(boundary: Boundary, plain: dict[str, Any]) -> str:
 
 def _late_enough(deck: Deck) -> list[str]:
     """A note where the calculation ends before its question can be answered."""
-    from hydro1d.arrival import arrival_of
-    from hydro1d.verdict import ends_of
+    from hydro1d.analysis.arrival import arrival_of
+    from hydro1d.analysis.transmission import ends_of
 
     arrival, end = arrival_of(deck), _common.figure(deck.time.end, "s")
     if arrival is None:

@@ -76,7 +76,7 @@ def _kinds() -> tuple[str, ...]:
 
 def _components() -> tuple[str, ...]:
     from hydro1d.cli.laws import KINDS
-    from hydro1d.plugins import builtin_names
+    from hydro1d.components.plugins import builtin_names
 
     return tuple(dict.fromkeys(name for kind in KINDS for name in builtin_names(kind)))
 

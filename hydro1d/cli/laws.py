@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hydro1d.parameters import Component
+    from hydro1d.components.parameters import Component
 
 ACTIONS = {"plot": "_laws_plot", "fit": "_laws_fit"}
 KINDS = {"law": "law = ", "boundary": "type = ", "pulse": "pulse = "}
@@ -44,7 +44,7 @@ def _act(name: str, arguments: list[str]) -> None:
 
 
 def _overview() -> list[str]:
-    from hydro1d.plugins import available
+    from hydro1d.components.plugins import available
 
     lines = []
     for kind, key in KINDS.items():
@@ -84,9 +84,9 @@ def _classes(name: str) -> list[tuple[str, type[Component]]]:
     """A name may stand for several things ("table" is a law and a pulse)."""
     from pathlib import Path
 
+    from hydro1d.components.plugins import available, find
     from hydro1d.deck.messages import suggestion
     from hydro1d.errors import DeckError
-    from hydro1d.plugins import available, find
 
     if ".py" in name:
         for kind in KINDS:

@@ -155,8 +155,8 @@ def _list(texts: list[str]) -> list[str]:
 
 
 def _times(texts: list[str]) -> list[float]:
+    from hydro1d.components.units import convert, is_number
     from hydro1d.errors import DeckError
-    from hydro1d.units import convert, is_number
 
     try:
         return [convert(float(text) if is_number(text) else text, "s") for text in _list(texts)]

@@ -25,7 +25,7 @@ def run(args: argparse.Namespace) -> None:
     from hydro1d.cli.sweep import executor_at
     from hydro1d.deck.messages import one_of
     from hydro1d.errors import DeckError
-    from hydro1d.paper.reproduce import PARTS, reproduce
+    from hydro1d.studies.harrigan2010.reproduce import PARTS, reproduce
 
     names = [name for name, _ in PARTS]
     unknown = [name for name in args.only if name not in names]

@@ -11,10 +11,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from hydro1d.analysis.openings import Openings
+    from hydro1d.analysis.transmission import Verdict
     from hydro1d.deck import Deck
-    from hydro1d.openings import Openings
     from hydro1d.store import Run
-    from hydro1d.verdict import Verdict
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,7 +49,7 @@ def run(args: argparse.Namespace) -> None:
         print(f"note: {note}", flush=True)  # before the calculation, which may be long and for nothing
     result = (_calculate if args.log_json is None else _logged)(args, deck, output)
     if told:
-        from hydro1d.openings import MOST_VALUES, find_openings
+        from hydro1d.analysis.openings import MOST_VALUES, find_openings
 
         few = len(result.time) * len(result["zone"]) <= MOST_VALUES  # else reading them back would take long
         print("\n".join(summary(deck, result, output, find_openings(result, deck) if few else None)))
@@ -107,7 +107,7 @@ def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:
 
 def summary(deck: Deck, result: Run, output: Path, opened: Openings | None = None) -> list[str]:
     """Lines that answer first what a user runs the code for: is the load enhanced, is the column crushed."""
-    from hydro1d.verdict import verdict_of
+    from hydro1d.analysis.transmission import verdict_of
 
     history, verdict = result.history, verdict_of(result, deck)
     end = _common.figure(float(history["time"][-1]), "s")
@@ -143,7 +143,7 @@ def _openings(opened: Openings) -> str:
 
 def _loads(verdict: Verdict, left: float, right: float) -> str:
     """Peak support stress over the peak of the applied pressure, where there is a pressure on one end."""
-    from hydro1d.verdict import NOT_REACHED
+    from hydro1d.analysis.transmission import NOT_REACHED
 
     if verdict.felt == 0.0 and verdict.applied > 0.0:
         return f"support stress: {NOT_REACHED} (applied peak {_common.figure(verdict.applied, 'Pa')})"

@@ -6,9 +6,9 @@ import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from hydro1d.components.units import shorten
 from hydro1d.deck.messages import MOST_FOUND, Finding
 from hydro1d.errors import Hydro1dError
-from hydro1d.units import shorten
 
 if TYPE_CHECKING:
     from hydro1d.boundaries.base import Boundary

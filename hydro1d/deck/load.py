@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pydantic import Field, ValidationError, field_validator
 
 from hydro1d.boundaries.base import Boundary
+from hydro1d.components.parameters import Component
+from hydro1d.components.plugins import UnknownPlugin, available, find
+from hydro1d.components.units import shorten
 from hydro1d.deck import overrides as overriding
 from hydro1d.deck.checks import cross_problems
 from hydro1d.deck.messages import (
@@ -38,9 +41,6 @@ from hydro1d.deck.plausible import notes_on
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
 from hydro1d.laws.base import Law
-from hydro1d.parameters import Component
-from hydro1d.plugins import UnknownPlugin, available, find
-from hydro1d.units import shorten
 from hydro1d.viscosity import Viscosity
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
+from hydro1d.components.units import describe, shorten
 from hydro1d.errors import DeckError, Problem
-from hydro1d.units import describe, shorten
 
 if TYPE_CHECKING:
     from hydro1d.deck.positions import Location

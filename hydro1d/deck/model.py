@@ -12,12 +12,12 @@ from typing import Any
 from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from hydro1d.boundaries.base import Boundary
+from hydro1d.components.parameters import Component, number, positive
+from hydro1d.components.units import convert, shorten
 from hydro1d.deck.checks import cross_problems
 from hydro1d.deck.messages import deck_error, findings_of
 from hydro1d.deck.names import plugin_name
 from hydro1d.laws.base import Law
-from hydro1d.parameters import Component, number, positive
-from hydro1d.units import convert, shorten
 from hydro1d.viscosity import Viscosity
 
 MOST_ZONES = 10_000_000

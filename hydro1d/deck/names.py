@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from hydro1d.parameters import Component
+from hydro1d.components.parameters import Component
 
-_PACKAGES = {"law": "hydro1d.laws", "boundary": "hydro1d.boundaries", "pulse": "hydro1d.boundaries.pulses"}
+_PACKAGES = {"law": "hydro1d.laws", "boundary": "hydro1d.boundaries", "pulse": "hydro1d.loads"}
 
 
 def plugin_name(kind: str, component: type[Component]) -> str:

@@ -139,7 +139,7 @@ def _largest(path: Location, table: Mapping[str, Any], law: Law, folder: Path) -
 
 def _has_unit(table: Any, units: tuple[str, ...], folder: Path) -> bool:
     """Whether the second column of a table, in the deck or in a file, was given with a unit."""
-    from hydro1d.tables import TableError, read_rows
+    from hydro1d.components.tables import TableError, read_rows
 
     if not isinstance(table, str):
         return any(isinstance(row[1], str) for row in table)

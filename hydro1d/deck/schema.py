@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from hydro1d.components.parameters import Component
+from hydro1d.components.plugins import available
 from hydro1d.deck.messages import allowed
 from hydro1d.deck.model import LONGEST_TITLE, Checkpoint, Layer, Output, Time
-from hydro1d.parameters import Component
-from hydro1d.plugins import available
 from hydro1d.viscosity import Viscosity
 
 _BOUNDS = ("exclusiveMinimum", "exclusiveMaximum", "minimum", "maximum")

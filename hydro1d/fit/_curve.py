@@ -46,7 +46,7 @@ def read_measured(
     unloading at the end) are left out; a file in which compression is negative is turned. Raises FileProblem if the file
     cannot be read, DeckError if it holds no curve, or stresses without a unit that cannot be Pa.
     """
-    from hydro1d.tables import read_rows
+    from hydro1d.components.tables import read_rows
 
     source = Path(path)
     if source.is_dir():

@@ -26,7 +26,7 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-from hydro1d.parameters import Component
+from hydro1d.components.parameters import Component
 
 _CTYPES = {"p": ctypes.c_void_p, "q": ctypes.c_void_p, "i": ctypes.c_int64}
 _lock = threading.Lock()

@@ -29,8 +29,8 @@ from numba.extending import (
 )
 from numba.np import linalg
 
+from hydro1d.components.parameters import Component, derived
 from hydro1d.kernels import primitives
-from hydro1d.parameters import Component, derived
 
 LEAN = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}  # for what only compiled code calls
 

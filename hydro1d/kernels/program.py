@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 
 from hydro1d.boundaries.base import Boundary
-from hydro1d.column import Column
+from hydro1d.components.parameters import Component
 from hydro1d.kernels import build, layout, march, profiles, records
 from hydro1d.kernels import ends as end_places
 from hydro1d.kernels import zones as zone_places
 from hydro1d.kernels.memory import placed
 from hydro1d.kernels.refusals import NotCompilable, explanation
 from hydro1d.laws.base import Foam, Law
-from hydro1d.parameters import Component
-from hydro1d.state import State
+from hydro1d.solver.column import Column
+from hydro1d.solver.state import State
 
 
 class Program:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hydro1d.parameters import Component, derived
+from hydro1d.components.parameters import Component, derived
 
 
 def members(component: Component) -> dict[str, Any]:

@@ -15,8 +15,8 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any, NamedTuple
 
+from hydro1d.components.parameters import Component
 from hydro1d.errors import DeckError
-from hydro1d.parameters import Component
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _MAY_USE = (

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from hydro1d.components.parameters import derived
 from hydro1d.laws.base import PlateauFoam
-from hydro1d.parameters import derived
 
 
 class LinearLocking(PlateauFoam):

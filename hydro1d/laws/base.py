@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from hydro1d.parameters import Component, derived, fraction, positive
+from hydro1d.components.parameters import Component, derived, fraction, positive
 
 RIGID = 100.0  # times the elastic modulus: the stiffest unloading that still leaves an affordable time step
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from hydro1d.components.parameters import derived
 from hydro1d.errors import DeckError
 from hydro1d.laws.base import Foam, Law
-from hydro1d.parameters import derived
 
 _STRAINS = (0.0, 1e-6, 1e-4, 1e-3, *(0.005 * k for k in range(1, 181)))
 _START = 1e-6  # a strain at which no foam has yielded

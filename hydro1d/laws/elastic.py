@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from hydro1d.components.parameters import positive
 from hydro1d.laws.base import Law
-from hydro1d.parameters import positive
 
 
 class Elastic(Law):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
+from hydro1d.components.parameters import derived, positive
 from hydro1d.laws.base import Foam
-from hydro1d.parameters import derived, positive
 
 
 class EPH(Foam):

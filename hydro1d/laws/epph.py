@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from hydro1d.components.parameters import positive
 from hydro1d.laws.base import PlateauFoam
-from hydro1d.parameters import positive
 
 
 class EPPH(PlateauFoam):

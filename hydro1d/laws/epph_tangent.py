@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from hydro1d.components.parameters import derived, fraction, positive
 from hydro1d.laws._cotangent import cotangent
 from hydro1d.laws.base import PlateauFoam
-from hydro1d.parameters import derived, fraction, positive
 
 
 class EPPHTangent(PlateauFoam):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from hydro1d.components.parameters import above, derived, positive
 from hydro1d.laws.base import Law
-from hydro1d.parameters import above, derived, positive
 
 
 class IdealGas(Law):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from pydantic import model_validator
 
+from hydro1d.components.parameters import derived, pairs, positive
 from hydro1d.laws.base import Foam
-from hydro1d.parameters import derived, pairs, positive
 
 _ADVICE = "hydro1d laws fit CURVE.csv --table FILE.csv makes such a curve of a measured one with unloading and noise"
 

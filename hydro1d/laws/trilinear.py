@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from hydro1d.components.parameters import derived, positive
 from hydro1d.laws._locking import LinearLocking
-from hydro1d.parameters import derived, positive
 
 
 class Trilinear(LinearLocking):

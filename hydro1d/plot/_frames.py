@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydro1d.analysis.fronts import front_path
 from hydro1d.errors import DeckError
-from hydro1d.fronts import front_path
 from hydro1d.plot._units import Scale, scale_for
 
 if TYPE_CHECKING:

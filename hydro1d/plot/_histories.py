@@ -9,12 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from hydro1d.analysis.fronts import front_path
+from hydro1d.analysis.transmission import pulse_of
 from hydro1d.errors import FileProblem
-from hydro1d.fronts import front_path
 from hydro1d.plot._base import GREY, as_run, heading, legend, name_of, new_figure
 from hydro1d.plot._frames import FRONTS
 from hydro1d.plot._units import Scale, scale_for, words
-from hydro1d.verdict import pulse_of
 
 if TYPE_CHECKING:
     from hydro1d.plot._base import RunOrPath

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hydro1d.fronts import front_path
+from hydro1d.analysis.fronts import front_path
 from hydro1d.plot._base import (
     GREY,
     PALETTE,

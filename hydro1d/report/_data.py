@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydro1d.fronts import front_path
+from hydro1d.analysis.fronts import front_path
 from hydro1d.plot._base import PALETTE
 from hydro1d.plot._frames import FRONTS
 from hydro1d.plot._histories import END_STRESSES, PANELS, applied_pressures, extremes

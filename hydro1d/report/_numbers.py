@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from hydro1d.analysis.openings import find_openings
+from hydro1d.analysis.transmission import NOT_REACHED, Verdict, verdict_of
 from hydro1d.errors import FileProblem
-from hydro1d.openings import find_openings
 from hydro1d.plot._base import name_of
 from hydro1d.plot._units import scale_for
-from hydro1d.verdict import NOT_REACHED, Verdict, verdict_of
 
 if TYPE_CHECKING:
     from hydro1d.deck import Deck

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from hydro1d import analytic
-from hydro1d.fronts import front_path
+from hydro1d.analysis.fronts import front_path
 from hydro1d.plot._units import Scale, scale_for
 
 if TYPE_CHECKING:

@@ -7,14 +7,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from hydro1d.components.parameters import Component
+from hydro1d.components.units import UnitError, convert, parse_unit
 from hydro1d.deck import Deck, load_deck
 from hydro1d.deck.messages import path_text
 from hydro1d.deck.overrides import Override, parse_override
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
-from hydro1d.parameters import Component
 from hydro1d.sweep.job import Job, override
-from hydro1d.units import UnitError, convert, parse_unit
 
 _NUMBER_UNIT = re.compile(r"\s*[-+]?(?:\d[\d_]*\.?[\d_]*|\.\d[\d_]*)(?:[eE][-+]?\d+)?\s*(\S.*?)?\s*")
 

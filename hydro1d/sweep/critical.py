@@ -9,14 +9,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from hydro1d.analysis.outcome import parse_outcome
+from hydro1d.analysis.transmission import NOT_REACHED
 from hydro1d.errors import BreakdownError, DeckError, Interrupted
 from hydro1d.sweep.base import base_data, number_of, unit_of
 from hydro1d.sweep.flip import Flip, NoFlip, find_flip
 from hydro1d.sweep.job import Job, Stop, evaluate, override
-from hydro1d.sweep.outcome import parse_outcome
 from hydro1d.sweep.table import Column, Table
 from hydro1d.threads import threads_here
-from hydro1d.verdict import NOT_REACHED
 
 Evaluation = tuple[float, float, bool, float, str]  # along, value, answer, quantity, status
 

@@ -11,16 +11,16 @@ from typing import Any
 
 import numpy as np
 
+from hydro1d.analysis.outcome import parse_outcome
+from hydro1d.analysis.quantity import parse_quantity
 from hydro1d.api import column_of
-from hydro1d.column import Column
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import DeckError, Hydro1dError
 from hydro1d.kernels.program import Program
-from hydro1d.solver import BLOCK, solve
-from hydro1d.solver import Outcome as Ending
+from hydro1d.solver.column import Column
+from hydro1d.solver.driver import BLOCK, solve
+from hydro1d.solver.driver import Outcome as Ending
 from hydro1d.store import Layout, MemorySink, Run
-from hydro1d.sweep.outcome import parse_outcome
-from hydro1d.sweep.quantity import parse_quantity
 
 _WORK_PER_LOOK = 300_000  # zone steps between looks at the history: some tenths of a millisecond
 _ROWS = 4096

@@ -8,11 +8,11 @@ from typing import Any, TypeVar
 
 from pydantic import Field, ValidationError
 
+from hydro1d.components.parameters import Component
 from hydro1d.deck.messages import Finding, deck_error, findings_of
 from hydro1d.deck.positions import Location, Positions
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError, FileProblem, Problem
-from hydro1d.parameters import Component
 from hydro1d.sweep.base import base_data, check_key
 from hydro1d.sweep.job import Job
 from hydro1d.sweep.plan import MOST_RUNS, Parameter, Plan, Sweep, parameter_problems, plan_problems, quantity_problems

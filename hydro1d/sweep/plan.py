@@ -12,12 +12,12 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import Field, field_validator, model_validator
 
+from hydro1d.analysis.quantity import parse_quantity
+from hydro1d.components.parameters import Component
 from hydro1d.deck.messages import Finding, deck_error
 from hydro1d.errors import DeckError
-from hydro1d.parameters import Component
 from hydro1d.sweep.base import base_data, check_key, si, unit_of, value_problem
 from hydro1d.sweep.job import Job, override
-from hydro1d.sweep.quantity import parse_quantity
 
 MOST_RUNS = 1_000_000
 SAMPLERS = ("sobol", "halton", "latin-hypercube", "random")

@@ -9,11 +9,11 @@ from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecu
 from pathlib import Path
 from typing import Any
 
+from hydro1d.analysis.quantity import parse_quantity
 from hydro1d.errors import DeckError, Hydro1dError, Interrupted
 from hydro1d.sweep.job import Job, Stop, evaluate
 from hydro1d.sweep.journal import Journal
 from hydro1d.sweep.plan import Sweep
-from hydro1d.sweep.quantity import parse_quantity
 from hydro1d.sweep.table import Column, Table
 from hydro1d.threads import threads_here
 
@@ -100,9 +100,8 @@ def digest(sweep: Sweep) -> str:
     except DeckError:
         laws = []
     package = Path(hydro1d.__file__).parent
-    sources = [
-        path for part in ("kernels", "laws", "boundaries", ".") for path in sorted((package / part).glob("*.py"))
-    ]
+    parts = ("kernels", "solver", "laws", "boundaries", "loads", "components", ".")
+    sources = [path for part in parts for path in sorted((package / part).glob("*.py"))]
     code = hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()
     content = json.dumps([sweep.data, sweep.folder, jobs, laws, code], sort_keys=True, default=str)
     return hashlib.sha256(content.encode()).hexdigest()

@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike
 
 from hydro1d.analytic import Jump, State
 from hydro1d.boundaries.base import Boundary
-from hydro1d.column import Column, build_column
 from hydro1d.deck import Layer
 from hydro1d.errors import BreakdownError
-from hydro1d.solver import Frame, Outcome, solve
-from hydro1d.state import State as SolverState
+from hydro1d.solver.column import Column, build_column
+from hydro1d.solver.driver import Frame, Outcome, solve
+from hydro1d.solver.state import State as SolverState
 
 FRONT_SHARE = 1e-4  # of the stress jump: where q has fallen below it the front has passed
 START_UP = 5  # zones at the loaded end whose medians are left out; `worst` has them

@@ -135,7 +135,7 @@ def test_a_deck_that_is_no_file(deck, capsys, path):
 
 
 def test_laws_lists_everything(capsys):
-    from hydro1d.plugins import builtin_names
+    from hydro1d.components.plugins import builtin_names
 
     assert main(["laws"]) == 0
     out = capsys.readouterr().out
@@ -169,12 +169,12 @@ def test_laws_shows_one_of_a_file(deck, capsys, tmp_path, base, kind):
 
 
 def test_an_entry_point_that_cannot_be_loaded(capsys, monkeypatch):
-    import hydro1d.plugins
+    import hydro1d.components.plugins
 
     def broken():
         raise ImportError("gone")
 
-    monkeypatch.setattr(hydro1d.plugins, "available", lambda kind: {"theirs": broken})
+    monkeypatch.setattr(hydro1d.components.plugins, "available", lambda kind: {"theirs": broken})
     assert main(["laws"]) == 0
     assert "theirs        (cannot be loaded: gone)" in capsys.readouterr().out
 

@@ -12,8 +12,8 @@ from types import SimpleNamespace
 import pytest
 
 from hydro1d.cli import main
+from hydro1d.components.units import convert
 from hydro1d.errors import BreakdownError, Interrupted
-from hydro1d.units import convert
 
 BREAKDOWN = BreakdownError("the zone is inverted", 3, 1e-3, 12)
 
@@ -76,7 +76,7 @@ def test_a_class_that_is_nothing_for_a_deck(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("quiet", [False, True])
 def test_reproduce_says_what_it_makes_and_where(tmp_path, monkeypatch, capsys, quiet):
-    import hydro1d.paper.reproduce as reproducing
+    import hydro1d.studies.harrigan2010.reproduce as reproducing
 
     calls = []
 

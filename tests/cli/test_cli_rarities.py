@@ -159,7 +159,7 @@ def test_values_along_a_boundary_that_are_none(tmp_path, monkeypatch, capsys, va
 
 @pytest.mark.parametrize("json", [False, True])
 def test_bench_prints_a_table_or_json(monkeypatch, capsys, json):
-    from hydro1d.bench import report
+    from hydro1d.benchmarks import report
 
     def measured(quick, say):
         say("a row")

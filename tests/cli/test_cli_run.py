@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 from command_line import DECK, command, outcome
 
+from hydro1d.analysis.openings import Openings
 from hydro1d.cli import _common, main
 from hydro1d.cli.run import summary
 from hydro1d.deck import load_deck
 from hydro1d.errors import BreakdownError, FileProblem, Interrupted
 from hydro1d.kernels import build
-from hydro1d.openings import Openings
 
 
 def test_run_for_real(deck, capsys, tmp_path):

@@ -290,7 +290,7 @@ def test_large_file(tmp_path):
 
 LAW = """\
 from hydro1d.laws.base import Law
-from hydro1d.parameters import positive
+from hydro1d.components.parameters import positive
 
 class Mine(Law):
     modulus: float = positive("Pa")

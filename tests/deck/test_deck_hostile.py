@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 from hostile_decks import Hostile, hostile
 
+from hydro1d.components.units import shorten
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import DeckError, Problem
-from hydro1d.units import shorten
 
 LONGEST = 10.0  # seconds of processor time for one deck
 MOST_MEMORY = 512 << 20  # bytes that the process may grow by at its worst moment

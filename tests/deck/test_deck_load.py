@@ -8,14 +8,14 @@ import pytest
 from sample_decks import LAWS, MAIN, data, ends
 
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
+from hydro1d.components.plugins import builtin_names
 from hydro1d.deck import Checkpoint, Deck, Layer, Output, Time, load_deck
 from hydro1d.errors import DeckError, FileProblem
 from hydro1d.laws.elastic import Elastic
 from hydro1d.laws.epph import EPPH
-from hydro1d.plugins import builtin_names
+from hydro1d.loads.rectangular import Rectangular
 from hydro1d.viscosity import Viscosity
 
 KEYS = {

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from hydro1d import tables
 from hydro1d.cli import main
 from hydro1d.cli.new import CASES
+from hydro1d.components import tables
 from hydro1d.deck import load_deck
 
 ROOT = Path(__file__).parents[2]

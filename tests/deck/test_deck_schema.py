@@ -6,8 +6,8 @@ import tomllib
 import pytest
 from sample_decks import LAWS, MAIN, data, ends
 
+from hydro1d.components.plugins import builtin_names
 from hydro1d.deck import deck_schema
-from hydro1d.plugins import builtin_names
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from hydro1d.cli import COMMANDS
-from hydro1d.plugins import builtin_names
+from hydro1d.components.plugins import builtin_names
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = {"law": "laws.md", "boundary": "boundaries.md", "pulse": "boundaries.md"}

@@ -31,10 +31,10 @@ from types import SimpleNamespace
 from pathlib import Path
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.free import Free
-from hydro1d.column import build_column
+from hydro1d.solver.column import build_column
 from hydro1d.kernels.program import Program
-from hydro1d.plugins import find
-from hydro1d.solver import initial_state, set_ends
+from hydro1d.components.plugins import find
+from hydro1d.solver.driver import initial_state, set_ends
 
 law = find("law", sys.argv[1], Path.cwd())(density=50.0, modulus=1e6)
 layer = SimpleNamespace(material="foam", law=law, thickness=1.0, zones=20, velocity=0.0)

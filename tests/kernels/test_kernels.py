@@ -13,25 +13,25 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hydro1d.bench import cases, reference
-from hydro1d.bench.baseline import Baseline
+from hydro1d.benchmarks import cases, reference
+from hydro1d.benchmarks.baseline import Baseline
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.wall import Wall
-from hydro1d.column import build_column
 from hydro1d.kernels import layout
 from hydro1d.kernels.memory import placed
 from hydro1d.kernels.program import Program
 from hydro1d.laws._cotangent import cotangent
-from hydro1d.solver import frame, initial_state, set_ends
-from hydro1d.state import State
+from hydro1d.loads.rectangular import Rectangular
+from hydro1d.solver.column import build_column
+from hydro1d.solver.driver import frame, initial_state, set_ends
+from hydro1d.solver.state import State
 
 ROOT = Path(__file__).parents[2]
 STEPS = """
 import json, sys
-from hydro1d.bench import cases
+from hydro1d.benchmarks import cases
 from hydro1d.kernels.program import Program
-from hydro1d.solver import frame, initial_state, set_ends
+from hydro1d.solver.driver import frame, initial_state, set_ends
 answers = {}
 for name in cases.NAMES:
     program = Program(cases.column(name, 24, history=5, probes=[0.3]))

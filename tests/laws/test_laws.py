@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from hydro1d.components.plugins import available, find
 from hydro1d.laws.base import RIGID
 from hydro1d.laws.check import check_law
 from hydro1d.laws.elastic import Elastic
@@ -23,7 +24,6 @@ from hydro1d.laws.rph import RPH
 from hydro1d.laws.rppl import RPPL
 from hydro1d.laws.table import Table
 from hydro1d.laws.trilinear import Trilinear
-from hydro1d.plugins import available, find
 
 FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
 FOAMS = {

@@ -9,10 +9,10 @@ import pytest
 
 import hydro1d
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.constant import Constant
 from hydro1d.boundaries.wall import Wall
 from hydro1d.kernels import build
 from hydro1d.laws.epph import EPPH
+from hydro1d.loads.constant import Constant
 
 SAME_AS_BUILT_IN = '''
 from hydro1d import PlateauFoam, positive

@@ -10,13 +10,13 @@ import pytest
 import hydro1d
 from hydro1d import analytic
 from hydro1d.cli import main
-from hydro1d.paper import extended, foam, fronts, pulses
-from hydro1d.paper.boundaries import foam_curve
-from hydro1d.paper.boundary import evaluate_at, trace_curves, with_the_pulse
-from hydro1d.paper.chain import equal_masses, potential, spring
-from hydro1d.paper.masses import potential_error
-from hydro1d.paper.springs import PLASTIC, REVERSIBLE, chain
-from hydro1d.paper.workshop import QUICK, Number, Picture, Workshop, deck_path
+from hydro1d.studies.harrigan2010 import extended, foam, fronts, pulses
+from hydro1d.studies.harrigan2010.boundaries import foam_curve
+from hydro1d.studies.harrigan2010.boundary import evaluate_at, trace_curves, with_the_pulse
+from hydro1d.studies.harrigan2010.chain import equal_masses, potential, spring
+from hydro1d.studies.harrigan2010.masses import potential_error
+from hydro1d.studies.harrigan2010.springs import PLASTIC, REVERSIBLE, chain
+from hydro1d.studies.harrigan2010.workshop import QUICK, Number, Picture, Workshop, deck_path
 
 POOL = ThreadPoolExecutor(2)
 CASES = Path(hydro1d.__file__).parent.parent / "cases"

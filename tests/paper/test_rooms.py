@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from hydro1d.paper import asked, foam
-from hydro1d.paper.bands import bands
-from hydro1d.paper.boundary import at_rest, critical_durations, with_the_pulse
-from hydro1d.paper.chain import equal_masses, spring
-from hydro1d.paper.rooms import Chain, answers, critical, follow, push, stress_and_stiffness
-from hydro1d.paper.springs import PLASTIC, REVERSIBLE, chain
+from hydro1d.studies.harrigan2010 import asked, foam
+from hydro1d.studies.harrigan2010.bands import bands
+from hydro1d.studies.harrigan2010.boundary import at_rest, critical_durations, with_the_pulse
+from hydro1d.studies.harrigan2010.chain import equal_masses, spring
+from hydro1d.studies.harrigan2010.rooms import Chain, answers, critical, follow, push, stress_and_stiffness
+from hydro1d.studies.harrigan2010.springs import PLASTIC, REVERSIBLE, chain
 
 HALF = Chain(end_mass=0.5)
 RATE = foam.GAMMA * 0.5 * math.pi / (1.0 - foam.LOCKING)

@@ -13,15 +13,15 @@ from synthetic import END, LENGTH, made_run
 
 import hydro1d
 from hydro1d import plot
+from hydro1d.analysis.fronts import front_path
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.constant import Constant
 from hydro1d.boundaries.wall import Wall
 from hydro1d.errors import DeckError, FileProblem, Hydro1dError
-from hydro1d.fronts import front_path
 from hydro1d.laws.elastic import Elastic
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.ideal_gas import IdealGas
 from hydro1d.laws.trilinear import Trilinear
+from hydro1d.loads.constant import Constant
 from hydro1d.plot._frames import in_laboratory
 from hydro1d.plot._histories import extremes
 from hydro1d.plot._hugoniot import crossings

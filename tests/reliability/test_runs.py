@@ -21,10 +21,10 @@ from decks import FOAM, PULSE, RINGING_BAR
 import hydro1d
 from hydro1d.boundaries.free import Free
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.rectangular import Rectangular
-from hydro1d.column import build_column
 from hydro1d.laws.elastic import Elastic
-from hydro1d.solver import solve
+from hydro1d.loads.rectangular import Rectangular
+from hydro1d.solver.column import build_column
+from hydro1d.solver.driver import solve
 from hydro1d.variables import HISTORY
 from hydro1d.viscosity import Viscosity
 

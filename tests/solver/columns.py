@@ -7,12 +7,12 @@ from types import SimpleNamespace
 import numpy as np
 
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.constant import Constant
-from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.wall import Wall
-from hydro1d.column import build_column
 from hydro1d.laws.epph import EPPH
-from hydro1d.solver import solve
+from hydro1d.loads.constant import Constant
+from hydro1d.loads.rectangular import Rectangular
+from hydro1d.solver.column import build_column
+from hydro1d.solver.driver import solve
 
 ROHACELL = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
 FOAM = EPPH(**ROHACELL, shock_slope=0.00105)

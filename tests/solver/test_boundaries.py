@@ -9,16 +9,16 @@ from columns import FOAM, Kept, layer, run, step
 from hydro1d.boundaries.free import Free
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.exponential import Exponential
-from hydro1d.boundaries.pulses.friedlander import Friedlander
-from hydro1d.boundaries.pulses.rectangular import Rectangular
-from hydro1d.boundaries.pulses.table import Table
-from hydro1d.boundaries.pulses.triangular import Triangular
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.boundaries.wall import Wall
 from hydro1d.errors import DeckError
 from hydro1d.laws.elastic import Elastic
+from hydro1d.loads.exponential import Exponential
+from hydro1d.loads.friedlander import Friedlander
+from hydro1d.loads.rectangular import Rectangular
+from hydro1d.loads.table import Table
+from hydro1d.loads.triangular import Triangular
 
 BAR = Elastic(density=1000.0, modulus=1e9)  # c = 1000 m/s, Z = 1e6 Pa s/m
 

@@ -12,7 +12,7 @@ import hydro1d
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.wall import Wall
 from hydro1d.laws.base import Law
-from hydro1d.solver import CheckpointPlan
+from hydro1d.solver.driver import CheckpointPlan
 
 
 def test_the_curve_that_ends_at_full_strain_ends_the_run():

@@ -11,7 +11,6 @@ from hydro1d import analytic
 from hydro1d.boundaries.free import Free
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.friedlander import Friedlander
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.boundaries.wall import Wall
@@ -23,6 +22,7 @@ from hydro1d.laws.ideal_gas import IdealGas
 from hydro1d.laws.rph import RPH
 from hydro1d.laws.rppl import RPPL
 from hydro1d.laws.trilinear import Trilinear
+from hydro1d.loads.friedlander import Friedlander
 
 BAR = Elastic(density=1000.0, modulus=1e9)
 STEEL = Elastic(density=7850.0, modulus=210e9)

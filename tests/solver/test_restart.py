@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from columns import FOAM, PULSE, layer, run
 
-from hydro1d import solver
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
-from hydro1d.column import build_column
 from hydro1d.kernels.program import Program
-from hydro1d.solver import CheckpointPlan
-from hydro1d.state import State
+from hydro1d.solver import driver as solver
+from hydro1d.solver.column import build_column
+from hydro1d.solver.driver import CheckpointPlan
+from hydro1d.solver.state import State
 
 
 def test_from_any_checkpoint_on_everything_is_the_same():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import hydro1d
-from hydro1d.fronts import front_arrival, front_path
+from hydro1d.analysis.fronts import front_arrival, front_path
 from hydro1d.sweep import parse_quantity
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "plot"))

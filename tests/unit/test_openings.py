@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import hydro1d
-from hydro1d.openings import find_openings
+from hydro1d.analysis.openings import find_openings
 
 DECK = """\
 [material.foam]

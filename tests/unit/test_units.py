@@ -11,10 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from hydro1d.parameters import Component, fraction, not_negative, pairs, positive
-from hydro1d.tables import TableError, read_table
-from hydro1d.unit_table import ATOMS, KINDS
-from hydro1d.units import UnitError, convert, describe, parse_unit, shorten
+from hydro1d.components.parameters import Component, fraction, not_negative, pairs, positive
+from hydro1d.components.tables import TableError, read_table
+from hydro1d.components.unit_table import ATOMS, KINDS
+from hydro1d.components.units import UnitError, convert, describe, parse_unit, shorten
 
 PRODUCTS = [
     "kg/m^3", "g/cm^3", "g/cm**3", "kg m^-3", "m/s", "km/s", "mm/ms", "mm/us", "kg/m^2", "J/kg", "kJ/kg", "s/m", "s/km",
@@ -147,7 +147,7 @@ def test_any_text_is_a_number_or_a_unit_error(text, unit):
 
 def test_pint_is_imported_only_for_rare_units():
     code = (
-        "import sys; from hydro1d.units import convert; convert('22 MPa', 'Pa'); convert('3 mm/ms', 'm/s');"
+        "import sys; from hydro1d.components.units import convert; convert('22 MPa', 'Pa'); convert('3 mm/ms', 'm/s');"
         "assert 'pint' not in sys.modules; convert('2 torr', 'Pa'); assert 'pint' in sys.modules"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
@@ -267,12 +267,12 @@ def test_csv_that_is_no_text(tmp_path):
 
 def test_csv_too_large(tmp_path, monkeypatch):
     (tmp_path / "curve.csv").write_text("0,0\n1,1\n2,2\n")
-    monkeypatch.setattr("hydro1d.tables.LONGEST_TABLE", 2)
+    monkeypatch.setattr("hydro1d.components.tables.LONGEST_TABLE", 2)
     with pytest.raises(TableError, match="more than 2 rows"):
         read_table("curve.csv", ("1", "Pa"), tmp_path)
     with pytest.raises(TableError, match="has 3 rows"):
         read_table([[0, 0], [1, 1], [2, 2]], ("1", "Pa"), tmp_path)
-    monkeypatch.setattr("hydro1d.tables.LARGEST_FILE", 3)
+    monkeypatch.setattr("hydro1d.components.tables.LARGEST_FILE", 3)
     with pytest.raises(TableError, match="larger than"):
         read_table("curve.csv", ("1", "Pa"), tmp_path)
 

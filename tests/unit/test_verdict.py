@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import hydro1d
+from hydro1d.analysis.arrival import arrival_of, elastic_speed, front_speed
+from hydro1d.analysis.transmission import ends_of, ends_of_data, verdict_of
 from hydro1d.analytic import EPPH, pressure_step
-from hydro1d.arrival import arrival_of, elastic_speed, front_speed
 from hydro1d.cli import main
-from hydro1d.verdict import ends_of, ends_of_data, verdict_of
 
 MAIN = Path(__file__).parents[2] / "cases" / "pulse_epph.toml"
 DECK = MAIN.read_text().replace("zones = 1000", "zones = 50").split("[output]")[0]

@@ -71,7 +71,7 @@ FAULTS = (
     ),
     Fault(
         "wrong mass of a boundary node",
-        (("column.py", r"(node_mass\[1:\] \+= 0\.5 \* zone_mass\n)", r"\1    node_mass[0] *= 2.0\n"),),
+        (("solver/column.py", r"(node_mass\[1:\] \+= 0\.5 \* zone_mass\n)", r"\1    node_mass[0] *= 2.0\n"),),
         ("smooth", "symmetry"),
     ),
     Fault(

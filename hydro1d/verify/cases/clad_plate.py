@@ -6,11 +6,11 @@ import numpy as np
 
 from hydro1d.analytic import RPPL, CladColumn, ExponentialPulse, Pulse, TriangularPulse
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.exponential import Exponential
-from hydro1d.boundaries.pulses.triangular import Triangular
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
 from hydro1d.laws.elastic import Elastic
+from hydro1d.loads.exponential import Exponential
+from hydro1d.loads.triangular import Triangular
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import DENSIFICATION, DENSITY, PLATEAU, rppl
 from hydro1d.verify.measure import Recording, crossing, extrapolate, order, simulate

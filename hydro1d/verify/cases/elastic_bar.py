@@ -8,12 +8,12 @@ import numpy as np
 
 from hydro1d.analytic import ElasticLayer, ElasticLayers, reflection, transmission
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.base import Pulse
-from hydro1d.boundaries.pulses.constant import Constant
 from hydro1d.boundaries.wall import Wall
+from hydro1d.components.parameters import positive
 from hydro1d.deck import Layer
 from hydro1d.laws.elastic import Elastic
-from hydro1d.parameters import positive
+from hydro1d.loads.base import Pulse
+from hydro1d.loads.constant import Constant
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.measure import Recording, order, simulate
 from hydro1d.verify.rows import Table, line

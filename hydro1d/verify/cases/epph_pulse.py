@@ -9,10 +9,10 @@ import numpy as np
 from hydro1d import analytic
 from hydro1d.analytic import CompactionPulse
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
 from hydro1d.laws.epph import EPPH
+from hydro1d.loads.rectangular import Rectangular
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import DENSITY, FOAM, MODULUS, SLOPE
 from hydro1d.verify.measure import Recording, order, simulate

@@ -10,9 +10,9 @@ import numpy as np
 from hydro1d.analytic import Jump, StepLoading, pressure_step
 from hydro1d.analytic.jumps import absorbed_energy
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.constant import Constant
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.deck import Layer
+from hydro1d.loads.constant import Constant
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import PLATEAU, Material

@@ -9,9 +9,9 @@ import numpy as np
 from hydro1d.analytic import RPPL, CompactionPulse, RPPLPulse
 from hydro1d.analytic.rppl_pulse import critical_duration
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
+from hydro1d.loads.rectangular import Rectangular
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import DENSIFICATION, DENSITY, PLATEAU, rppl
 from hydro1d.verify.measure import Recording, crossing, extrapolate, order, simulate

@@ -7,11 +7,11 @@ import numpy as np
 from hydro1d.analytic import SimpleWave
 from hydro1d.boundaries.base import Boundary, End, reaction
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.base import Pulse
 from hydro1d.boundaries.wall import Wall
+from hydro1d.components.parameters import number, positive
 from hydro1d.deck import Layer
 from hydro1d.laws.ideal_gas import IdealGas
-from hydro1d.parameters import number, positive
+from hydro1d.loads.base import Pulse
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.measure import Recording, order, simulate
 from hydro1d.verify.rows import Table, line

@@ -8,7 +8,6 @@ from hydro1d.boundaries.base import Boundary
 from hydro1d.boundaries.free import Free
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.rectangular import Rectangular
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
@@ -16,6 +15,7 @@ from hydro1d.laws.base import Law
 from hydro1d.laws.elastic import Elastic
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.ideal_gas import IdealGas
+from hydro1d.loads.rectangular import Rectangular
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import FOAM, MODULUS, SLOPE

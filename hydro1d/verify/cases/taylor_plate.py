@@ -6,10 +6,10 @@ import numpy as np
 
 from hydro1d.analytic import TaylorPlate
 from hydro1d.boundaries.pressure import Pressure
-from hydro1d.boundaries.pulses.exponential import Exponential
 from hydro1d.boundaries.striker import Striker
 from hydro1d.deck import Layer
 from hydro1d.laws.elastic import Elastic
+from hydro1d.loads.exponential import Exponential
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.measure import Recording, crossing, order, simulate
 from hydro1d.verify.rows import Table, line

@@ -1,0 +1,1 @@
+"""What a run says: transmission, fronts, arrival, openings, energy, quantities, outcomes."""

@@ -1,0 +1,1 @@
+"""What laws, boundaries and loads share: parameters with units, plug-ins, tables."""

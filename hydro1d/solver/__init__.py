@@ -1,0 +1,1 @@
+"""A column, its state, and the run through its output times."""

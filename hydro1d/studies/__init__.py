@@ -1,0 +1,1 @@
+"""Studies of published work, reproduced figure by figure."""

@@ -1,0 +1,211 @@
+"""Where figures are made: runs as HDF5 files, tables, numbers, and the pictures drawn from them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from hydro1d.api import run
+from hydro1d.deck import load_deck
+from hydro1d.errors import FileProblem
+from hydro1d.store import Run
+from hydro1d.sweep import Column, Table, read_table
+from hydro1d.sweep.base import base_data
+from hydro1d.threads import threads_here
+
+BLUE, RED, GREEN, ORANGE = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00"
+PURPLE, GREY, BROWN, GOLD, PINK, LILAC = "#7d3c98", "#777777", "#8b5a2b", "#d9b648", "#d98cb3", "#b9a3d4"
+
+
+class Number(NamedTuple):
+    """One number in three columns: what the paper prints, what its equations give, what the solver gives."""
+
+    figure: str
+    quantity: str
+    unit: str
+    paper: float
+    equations: float
+    solver: float
+    note: str = ""
+
+    @property
+    def difference(self) -> float:
+        """Solver against equations, else equations against paper, as a share."""
+        pair = (self.equations, self.solver) if not math.isnan(self.solver) else (self.paper, self.equations)
+        return pair[1] / pair[0] - 1.0 if pair[0] else float("nan")
+
+
+class Picture(NamedTuple):
+    """A finished figure: name, title, what to see."""
+
+    name: str
+    title: str
+    caption: str
+
+    @property
+    def figure(self) -> str:
+        """Its number as in numbers.csv: fig11a is 11a, new2_peak_map is new 2."""
+        kind, number = re.fullmatch(r"(fig|new)0*(\d+[ab]?)(?:_\w+)?", self.name).groups()  # type: ignore[union-attr]
+        return number if kind == "fig" else f"new {number}"
+
+
+@dataclass(frozen=True)
+class Size:
+    """How much is computed: everything, or enough to see that it works."""
+
+    pressures: int = 30
+    zones: int = 100
+    masses: tuple[int, ...] = (10, 20, 50, 100, 500)
+    mass_pressures: int = 13
+    tolerance: float = 1e-3
+    map_points: int = 22
+    strip_points: int = 25
+    band_points: int = 161
+    energy_pressures: int = 10
+    fine_zones: int = 1000
+    striker_points: int = 8
+    steps: int = 9
+    stiffness: tuple[float, float] = (2500.0, 10000.0)
+    unloading: tuple[float, ...] = (5.0, 20.0)
+    studies: bool = True
+
+
+QUICK = Size(
+    pressures=6,
+    zones=50,
+    masses=(10, 20),
+    mass_pressures=4,
+    tolerance=5e-3,
+    map_points=9,
+    strip_points=9,
+    band_points=41,
+    energy_pressures=4,
+    fine_zones=400,
+    striker_points=3,
+    steps=4,
+    stiffness=(1000.0, 4000.0),
+    unloading=(20.0,),
+    studies=False,
+)
+
+
+class Workshop:
+    """The folder that everything goes to, and what has been made so far."""
+
+    def __init__(
+        self, folder: Path, size: Size, pool: Executor | None = None, say: Callable[[str], None] = print
+    ) -> None:
+        self.folder, self.size, self.say = folder, size, say
+        self.pool = pool or ThreadPoolExecutor(threads_here())
+        self.data = folder / "data"
+        self.numbers: list[Number] = []
+        self.pictures: list[Picture] = []
+        try:
+            self.data.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileProblem(f"cannot write {folder}: {error.strerror}") from None
+
+    def run(self, deck: str, label: str, overrides: Sequence[str] = ()) -> Run:
+        """Run one of the paper's decks into ``data/LABEL.h5`` and open the file."""
+        return run(load_deck(deck_path(deck), overrides), self.data / f"{label}.h5")
+
+    def table(self, label: str, table: Table) -> Table:
+        """Write a table as HDF5 and read it back: figures are drawn from files."""
+        table.write_hdf5(self.data / f"{label}.h5")
+        return read_table(self.data / f"{label}.h5")
+
+    def number(
+        self,
+        figure: str,
+        quantity: str,
+        unit: str,
+        *,
+        paper: Any = math.nan,
+        equations: Any = math.nan,
+        solver: Any = math.nan,
+        note: str = "",
+    ) -> None:
+        """Keep a number for numbers.csv; one that is known in no column is none."""
+        item = Number(figure, quantity, unit, float(paper), float(equations), float(solver), note)
+        if not all(math.isnan(value) for value in (item.paper, item.equations, item.solver)):
+            self.numbers.append(item)
+
+    def picture(self, name: str, title: str, caption: str, figure: Figure, data: Table) -> None:
+        """Write NAME.png, NAME.svg and NAME.csv."""
+        import matplotlib
+
+        figure.savefig(self.folder / f"{name}.png", dpi=130)
+        with matplotlib.rc_context({"svg.hashsalt": name}):
+            figure.savefig(self.folder / f"{name}.svg", metadata={"Date": None})
+        data.write_csv(self.folder / f"{name}.csv")
+        self.pictures.append(Picture(name, title, caption))
+
+    def write_numbers(self) -> None:
+        """numbers.csv: figure, quantity, paper, equations, solver, then unit, difference and note."""
+        out = io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["figure", "quantity", "paper", "equations", "solver", "unit", "difference", "note"])
+        for item in self.numbers:
+            values = [f"{x:.6g}" if x == x else "" for x in (item.paper, item.equations, item.solver)]
+            change = f"{item.difference:.2e}" if item.difference == item.difference else ""
+            writer.writerow([item.figure, item.quantity, *values, item.unit, change, item.note])
+        (self.folder / "numbers.csv").write_text(out.getvalue(), encoding="utf-8")
+
+    def timed(self, label: str, work: Callable[[Workshop], None]) -> None:
+        """Do a part of the work and say how long it took."""
+        begun = time.perf_counter()
+        work(self)
+        self.say(f"{label:<12}{time.perf_counter() - begun:7.1f} s")
+
+
+def deck_path(name: str) -> Path:
+    """One of the decks of the paper: in the package where it was installed, in ``cases`` of a working copy."""
+    here = Path(__file__).parent
+    root = here.parents[2]
+    for folder in (here / "cases", here / "cases" / "paper", root / "cases" / "paper", root / "cases"):
+        if (folder / name).is_file():
+            return folder / name
+    raise FileProblem(f"the deck {name} is not part of this installation")
+
+
+def deck_data(name: str) -> dict[str, Any]:
+    """Its data."""
+    return base_data(deck_path(name))[0]
+
+
+def columns(**named: Sequence[float] | np.ndarray) -> Table:
+    """A table of series of any length: shorter ones end in NaN. Names are as given, ``__`` and a unit behind them."""
+    longest = max(len(values) for values in named.values())
+    made = []
+    for name, values in named.items():
+        padded = [float(value) for value in values] + [math.nan] * (longest - len(values))
+        label, _, unit = name.partition("__")
+        unit = unit.replace("m_s", "m s-1")
+        made.append(Column(f"{label} ({unit})" if unit else label, unit, label, padded))
+    return Table(made)
+
+
+def plain(criterion: str) -> str:
+    """An outcome's name as words."""
+    return criterion.replace("_", " ")
+
+
+def new_figure(width: float = 6.4, height: float = 4.4, **grid: Any) -> tuple[Figure, Any]:
+    """A figure with its axes, without pyplot's global state."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = figure.subplots(**grid)
+    for ax in np.atleast_1d(axes).flat:
+        ax.grid(alpha=0.25)
+        ax.spines[["top", "right"]].set_visible(False)
+    return figure, axes
