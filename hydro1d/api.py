@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import BreakdownError, FileProblem, Interrupted
 from hydro1d.interrupt import interruptible
-from hydro1d.kernels import layout
-from hydro1d.kernels.build import fingerprint
-from hydro1d.kernels.program import Program
+from hydro1d.jit.build import fingerprint
 from hydro1d.laws.check import check_law
 from hydro1d.solver.column import Column, build_column
 from hydro1d.solver.driver import CheckpointPlan, Outcome, initial_state, solve
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 
 if TYPE_CHECKING:
@@ -124,7 +123,7 @@ def _closing(column: Column, outcome: Outcome) -> dict[str, Any]:
     """Root attributes known at the end."""
     if outcome.state is None:
         return {}
-    layer = int(outcome.state.ledger[layout.LIMITING_LAYER])
+    layer = int(outcome.state.clock[0].limiting_layer)
     return {"limiting_layer": column.layer_name[layer], "message": outcome.message}
 
 
@@ -141,7 +140,7 @@ def _state_of(column: Column, program: Program, arrays: Mapping[str, Any], path:
     """The checkpoint's state. Compiled code trusts its shapes, so that not even a forced restart may have others."""
     for name, needed in initial_state(column, program).arrays().items():
         shape = arrays[name].shape if name in arrays else None
-        if shape != needed.shape:
+        if shape != needed.shape or arrays[name].dtype != needed.dtype:
             found = "none" if shape is None else f"numbers {shape}"
             raise FileProblem(
                 f"cannot carry on from {path}: its state holds {found} as {name}, this deck needs {needed.shape}; "
@@ -154,9 +153,10 @@ def _state_of(column: Column, program: Program, arrays: Mapping[str, Any], path:
 
 def _check_places(column: Column, state: State, path: Path) -> None:
     """What compiled code takes for places in its arrays must be places in them."""
-    most = {layout.LEFT_FRONT: column.zones, layout.RIGHT_FRONT: column.zones, layout.CYCLE: 2**53}
-    most[layout.LIMITING_LAYER] = len(column.slabs) - 1
-    if not all(0.0 <= state.ledger[place] <= bound for place, bound in most.items()):
+    clock = state.clock[0]
+    bounds = {"left_front": column.zones, "right_front": column.zones, "cycle": 2**53}
+    bounds["limiting_layer"] = len(column.layers) - 1
+    if not all(0 <= clock[name] <= bound for name, bound in bounds.items()):
         raise FileProblem(f"cannot carry on from {path}: its state makes no sense")
 
 

@@ -18,7 +18,6 @@ from hydro1d import analytic
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.transmitting import Transmitting
-from hydro1d.kernels import layout
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.epph_tangent import EPPHTangent
 from hydro1d.laws.eppr import EPPR
@@ -27,9 +26,9 @@ from hydro1d.laws.rppl import RPPL
 from hydro1d.laws.table import Table
 from hydro1d.laws.trilinear import Trilinear
 from hydro1d.loads.constant import Constant
+from hydro1d.scheme.viscosity import Viscosity
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
-from hydro1d.viscosity import Viscosity
 
 FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
 PLATEAU = FOAM["plateau_stress"]
@@ -116,7 +115,7 @@ def run(law, exact, boundary, viscosity: Viscosity, zones: int = 1000, cfl: floa
         "median_stress": np.median(stress[5:]) / behind.stress - 1.0,
         "first": error[:5][np.argmax(np.abs(error[:5]))],
         "rest": error[5:][np.argmax(np.abs(error[5:]))],
-        "peak": outcome.state.ledger[layout.PEAK_STRESS] / behind.stress - 1.0,
+        "peak": outcome.state.clock[0].peak_stress / behind.stress - 1.0,
         "front": front_error(exact.jumps()[-1], sink.fields[0]["strain"], speed * end * zones),
         "cycles": outcome.cycles,
     }

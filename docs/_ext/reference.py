@@ -43,7 +43,7 @@ def component(kind: str, name: str) -> type:
     """The class of a law, boundary, pulse or section."""
     from hydro1d.components.plugins import find
     from hydro1d.deck import model
-    from hydro1d.viscosity import Viscosity
+    from hydro1d.scheme.viscosity import Viscosity
 
     if kind == "foam":
         from hydro1d import Foam

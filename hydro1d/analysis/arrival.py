@@ -59,8 +59,7 @@ def _top_velocity(load: Boundary, inward: float) -> float:
 
 def elastic_speed(law: Law) -> float:
     """Lagrangian speed (m/s) of a weak wave in the material at rest."""
-    _, _, stiffness, *_ = law.point(0.0, 0.0, 0.0, law.initial_energy, tuple(law.history.values()))
-    return math.sqrt(stiffness / law.density)
+    return math.sqrt(law.at(0.0, energy=law.initial_energy).stiffness / law.density)
 
 
 def front_speed(foam: Foam, pressure: float, velocity: float) -> float:

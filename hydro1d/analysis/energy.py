@@ -35,7 +35,7 @@ def _density(law: Law, strain: np.ndarray, stress: np.ndarray, largest: np.ndarr
         return 0.5 * stress**2 / modulus if modulus else np.full(stress.shape, np.nan)
     if law.is_reversible:
         return np.array([loading_energy(law, float(e)) for e in strain])
-    stiffness = [law.point(float(e), float(top), 0.0, 0.0, ())[2] for e, top in zip(strain, largest, strict=True)]
+    stiffness = [law.at(e, top).stiffness for e, top in zip(strain, largest, strict=True)]
     return 0.5 * stress**2 / np.array(stiffness)
 
 

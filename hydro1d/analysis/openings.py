@@ -84,5 +84,5 @@ def _closing_strain(run: Run, deck: Deck, strain: np.ndarray, is_open: np.ndarra
 def _closed(law: Law, largest: float) -> float:
     if getattr(law, "is_reversible", False):
         return 0.0
-    stress, _, stiffness, *_ = law.point(largest, largest, 0.0, 0.0, tuple(type(law).history.values()))
-    return largest - float(stress) / float(stiffness)
+    response = law.at(largest, largest)
+    return largest - float(response.stress) / float(response.stiffness)

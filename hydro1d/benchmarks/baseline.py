@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 
-from hydro1d.kernels import layout
-from hydro1d.kernels.march import GROWTH
-from hydro1d.kernels.program import Program
 from hydro1d.laws.epph import EPPH
+from hydro1d.scheme.step import GROWTH
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 
 
@@ -19,8 +18,8 @@ class Baseline:
     def __init__(self, program: Program) -> None:
         """Take over the program's column."""
         self.column = program.column
-        self.slab = self.column.slabs[0]
-        self.law: EPPH = self.slab.law  # type: ignore[assignment]
+        self.block = self.column.layers[0]
+        self.law: EPPH = self.block.law  # type: ignore[assignment]
         self.pulse = self.column.left.pulse  # type: ignore[attr-defined]
 
     def advance(self, state: State, steps: int) -> None:
@@ -29,14 +28,14 @@ class Baseline:
             self._step(state)
 
     def _step(self, s: State) -> None:
-        g, mass = s.ledger, self.column.node_mass
-        step = min(g[layout.NEXT_STEP], GROWTH * g[layout.FREE_STEP])
-        g[layout.FREE_STEP] = step
-        last = g[layout.LAST_STEP]
+        clock, mass = s.clock[0], self.column.node_mass
+        step = min(clock.next_step, GROWTH * clock.free_step)
+        clock.free_step = step
+        last = clock.last_step
         kick = 0.5 * (last + step)
         before = s.velocity[1:-1]
         push = np.zeros(len(mass))
-        early, late = g[layout.TIME] - 0.25 * last, g[layout.TIME] + 0.25 * step
+        early, late = clock.time - 0.25 * last, clock.time + 0.25 * step
         push[0] = (self.pulse.pressure(early) * last + self.pulse.pressure(late) * step) / (last + step)
         push[:-1] -= s.force
         push[1:] += s.force
@@ -46,16 +45,16 @@ class Baseline:
         self._zones(s, before, velocity, step, kick)
         s.velocity[1:-1] = velocity
         s.velocity[0], s.velocity[-1] = velocity[1], velocity[-2]
-        g[layout.TIME] += step
-        g[layout.LAST_STEP] = step
+        clock.time += step
+        clock.last_step = step
 
     def _zones(self, s: State, before: np.ndarray, velocity: np.ndarray, step: float, kick: float) -> None:
-        law, size = self.law, self.slab.size
+        law, size = self.law, self.block.size
         linear, smooth_linear, quadratic = self.column.viscosity.coefficients()
         jump = velocity[:-1] - velocity[1:]
         strain = (s.displacement[:-1] - s.displacement[1:]) / size
-        s.gained[...] += 0.5 * kick * s.force * (before[:-1] - before[1:] + jump) / (size * law.density)
-        top = s.material[0] = np.maximum(s.material[0], strain)
+        s.increment[...] += 0.5 * kick * s.force * (before[:-1] - before[1:] + jump) / (size * law.density)
+        top = s.state[0] = np.maximum(s.state[0], strain)
         over = np.maximum(top - law.densification_strain, 0.0)
         inverse = 1.0 / (over + law.densification_strain - law.yield_strain)
         extra = law.density * (over / law.shock_slope) ** 2 * inverse
@@ -77,4 +76,4 @@ class Baseline:
         s.force[:] = stress + np.where(stress > 0.0, law.density * closing * speed, 0.0)
         fastest = float((speed + crowding).max())
         stable = size / (math.sqrt(stiffness.max() / law.density + fastest**2) + fastest)
-        s.ledger[layout.NEXT_STEP] = s.ledger[layout.CFL] * stable
+        s.clock[0].next_step = s.clock[0].cfl * stable

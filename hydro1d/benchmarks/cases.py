@@ -9,9 +9,6 @@ import numpy as np
 from hydro1d.benchmarks.power_foam import PowerFoam
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.wall import Wall
-from hydro1d.kernels import layout
-from hydro1d.kernels import zones as zone_places
-from hydro1d.kernels.program import Program
 from hydro1d.laws.base import Law
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.epph_tangent import EPPHTangent
@@ -19,8 +16,10 @@ from hydro1d.laws.ideal_gas import IdealGas
 from hydro1d.laws.rph import RPH
 from hydro1d.laws.table import Table
 from hydro1d.loads.rectangular import Rectangular
+from hydro1d.scheme.records import PAUSED, REACHED
 from hydro1d.solver.column import Column, build_column
-from hydro1d.solver.driver import initial_state, set_ends
+from hydro1d.solver.driver import initial_state
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 
 FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
@@ -76,20 +75,18 @@ def stations(name: str, zones: int, count: int = 4) -> tuple[Program, list[State
     states = []
     state = _begun(coarse)
     for k in range(count):
-        status = layout.PAUSED
-        while status == layout.PAUSED:
+        status = PAUSED
+        while status == PAUSED:
             status = coarse.advance(state, stop=end * (k + 0.5) / count, steps=1_000_000, row_at_stop=False)
-        if status != layout.REACHED:
+        if status != REACHED:
             raise RuntimeError(f"{name}, {zones} zones: the run broke down at {state.time:.3g} s")
         states.append(refined(state, parts) if parts > 1 else state.copy())
-    set_ends(program.column, program)
     for moved in states:
         program.advance(moved, stop=1.0, steps=20, row_at_stop=False)
     return program, states
 
 
 def _begun(program: Program) -> State:
-    set_ends(program.column, program)
     return initial_state(program.column, program)
 
 
@@ -99,24 +96,19 @@ def refined(state: State, parts: int) -> State:
     zones = len(state.energy)
     nodes, fine = np.arange(zones + 1.0), np.linspace(0.0, zones, zones * parts + 1)
     velocity = np.interp(fine, nodes, state.velocity[1:-1])
-    ledger = state.ledger.copy()
-    for place in (layout.LAST_STEP, layout.FREE_STEP, layout.NEXT_STEP, layout.FIRST_STEP):
-        ledger[place] /= parts
-    numbers = state.numbers.copy()
-    numbers[:, zone_places.INVERSE_SIZE] *= parts
-    for place in (layout.SIZE, layout.ZONE_MASS):
-        numbers[:, place] /= parts
+    clock = state.clock.copy()
+    for name in ("last_step", "free_step", "next_step", "first_step"):
+        clock[name] /= parts
     return State.from_arrays(
         arrays
         | {
-            "ledger": ledger,
-            "numbers": numbers,
+            "clock": clock,
             "velocity": np.concatenate([velocity[1:2], velocity, velocity[-2:-1]]),
             "displacement": np.interp(fine, nodes, state.displacement),
             "energy": np.repeat(state.energy, parts),
-            "gained": np.repeat(state.gained, parts),
+            "increment": np.repeat(state.increment, parts),
             "force": np.repeat(state.force, parts),
             "viscosity": np.repeat(state.viscosity, parts),
-            "material": np.repeat(state.material, parts, axis=1),
+            "state": np.repeat(state.state, parts, axis=1),
         }
     )

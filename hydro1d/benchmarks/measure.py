@@ -11,8 +11,8 @@ import numpy as np
 
 from hydro1d.benchmarks import cases, reference
 from hydro1d.benchmarks.baseline import Baseline
-from hydro1d.kernels.program import Program
 from hydro1d.solver.driver import solve
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 
 AGREEMENT = 1e-10  # of the two answers, or nothing is timed; beyond 10 000 zones the round-off of their strains is more

@@ -14,13 +14,12 @@ import numpy as np
 
 from hydro1d.benchmarks.cases import GAS_PULSE, PULSE
 from hydro1d.benchmarks.power_foam import PowerFoam
-from hydro1d.kernels import layout
-from hydro1d.kernels.program import Program
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.epph_tangent import EPPHTangent
 from hydro1d.laws.ideal_gas import IdealGas
 from hydro1d.laws.rph import RPH
 from hydro1d.laws.table import Table
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 
 SOURCE = Path(__file__).resolve().parents[2] / "tools" / "bench" / "reference.c"
@@ -85,15 +84,15 @@ class Reference:
     def __init__(self, library: Any, program: Program) -> None:
         """Take over the program's column."""
         self.library, self.program = library, program
-        self.layers = (_Layer * len(program.column.slabs))()
+        self.layers = (_Layer * len(program.column.layers))()
         self._tables: list[np.ndarray] = []
         self.room = np.zeros(program.column.zones + 3)
-        for layer, slab in zip(self.layers, program.column.slabs, strict=True):
-            self._fill(layer, slab)
+        for layer, block in zip(self.layers, program.column.layers, strict=True):
+            self._fill(layer, block)
 
-    def _fill(self, layer: Any, slab: Any) -> None:
-        law = slab.law
-        layer.law, layer.first, layer.zones, layer.size = _LAWS.index(type(law)), slab.first, slab.zones, slab.size
+    def _fill(self, layer: Any, block: Any) -> None:
+        law = block.law
+        layer.law, layer.first, layer.zones, layer.size = _LAWS.index(type(law)), block.first, block.zones, block.size
         layer.density = law.density
         layer.linear, layer.smooth_linear, layer.quadratic = self.program.column.viscosity.coefficients()
         if isinstance(law, IdealGas):
@@ -120,31 +119,30 @@ class Reference:
 
     def advance(self, state: State, steps: int, stop: float = 1.0) -> None:
         """So many steps, in place."""
-        column, old = self.program.column, state.ledger
-        pulse = GAS_PULSE if isinstance(column.slabs[0].law, IdealGas) else PULSE
+        column, clock = self.program.column, state.clock[0]
+        pulse = GAS_PULSE if isinstance(column.layers[0].law, IdealGas) else PULSE
         ledger = _Ledger(
-            time=old[layout.TIME], last_step=old[layout.LAST_STEP], free_step=old[layout.FREE_STEP],
-            next_step=old[layout.NEXT_STEP], stop=stop, cfl=old[layout.CFL], work=old[layout.WORK],
-            viscous_work=old[layout.VISCOUS_WORK], top_stress=old[layout.PEAK_STRESS], top_left=old[layout.PEAK_LEFT],
-            top_right=old[layout.PEAK_RIGHT], top_strain=0.0, **pulse,
+            time=clock.time, last_step=clock.last_step, free_step=clock.free_step, next_step=clock.next_step, stop=stop,
+            cfl=clock.cfl, work=clock.boundary_work, viscous_work=clock.viscous_work, top_stress=clock.peak_stress,
+            top_left=clock.peak_left_stress, top_right=clock.peak_right_stress, top_strain=0.0, **pulse,
         )  # fmt: skip
-        arrays = (state.velocity, self.room, state.displacement, state.energy, state.gained, state.force, state.material,
-                  column.node_mass, self.program.inverse_mass)  # fmt: skip
+        arrays = (state.velocity, self.room, state.displacement, state.energy, state.increment, state.force, state.state,
+                  column.node_mass, self.program.own["inverse_mass"])  # fmt: skip
         self.library.march(
             ctypes.byref(ledger), ctypes.byref(self.layers), len(self.layers), column.zones, steps,
             *(array.ctypes.data for array in arrays),
         )  # fmt: skip
-        old[layout.TIME], old[layout.LAST_STEP], old[layout.NEXT_STEP] = ledger.time, ledger.last_step, ledger.next_step
-        old[layout.WORK], old[layout.VISCOUS_WORK] = ledger.work, ledger.viscous_work
-        old[layout.PEAK_STRESS] = ledger.top_stress
+        clock.time, clock.last_step, clock.next_step = ledger.time, ledger.last_step, ledger.next_step
+        clock.boundary_work, clock.viscous_work = ledger.work, ledger.viscous_work
+        clock.peak_stress = ledger.top_stress
 
 
 def difference(one: State, other: State) -> float:
     """Largest difference of two states, relative to the largest value of each quantity."""
     worst = abs(one.time - other.time) / other.time
-    energies = [state.energy + state.gained for state in (one, other)]
+    energies = [state.energy + state.increment for state in (one, other)]
     worst = max(worst, float(np.abs(energies[0] - energies[1]).max() / np.abs(energies[1]).max()))
     for name in ("velocity", "displacement", "force"):
         a, b = getattr(one, name), getattr(other, name)
         worst = max(worst, float(np.abs(a - b).max() / np.abs(b).max()))
-    return max(worst, float(np.abs(one.material[0] - other.material[0]).max() / np.abs(other.material[0]).max()))
+    return max(worst, float(np.abs(one.state[0] - other.state[0]).max() / np.abs(other.state[0]).max()))

@@ -35,35 +35,36 @@ class End(NamedTuple):
 
 
 class Boundary(Component):
-    """Base of all boundaries. `memory` names the variables that a boundary keeps, with units, for the history.
+    """Base of all boundaries. `state_variables` names what a boundary keeps, with units, for the history.
 
     `supports` is whether what stands on the end bears a load that arrives there, as a wall does.
     """
 
-    memory: ClassVar[dict[str, str]] = {}
+    state_variables: ClassVar[dict[str, str]] = {}
+    memory: ClassVar[dict[str, str]] = {}  # what version 0.1 called it
     supports: ClassVar[bool] = True
 
-    def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
+    def kick(self, end: End, state: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Advance the end node over one step.
 
         Returns the new velocity (m/s, inward), the force per area that the boundary exerts on the node (Pa, inward), and
-        the new memory.
+        the new state.
         """
         raise NotImplementedError
 
     def start(self, velocity: float, mass: float, side: float) -> tuple[float, tuple[float, ...]]:
-        """Velocity (inward) of the end node just after t = 0, and the initial memory.
+        """Velocity (inward) of the end node just after t = 0, and the initial state.
 
         Raises ValueError, in one sentence, where the load makes no sense on this side.
         """
         return velocity, ()
 
-    def report(self, memory: np.ndarray, coordinate: float, side: float) -> np.ndarray:
-        """The memory (rows, variables) as the history shows it: in the laboratory, for an end that began at ``coordinate``."""
-        return memory
+    def report(self, kept: np.ndarray, coordinate: float, side: float) -> np.ndarray:
+        """What is kept (rows, variables) as the history shows it: in the laboratory, for an end that began at ``coordinate``."""
+        return kept
 
-    def corners(self) -> tuple[float, ...]:
-        """Times (s) at which the load has a corner or a jump: a step lands on each."""
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times (s) at which the load has a breakpoint or a jump: a step lands on each."""
         return ()
 
     def peak(self) -> float:

@@ -10,6 +10,6 @@ class Free(Boundary):
 
     supports = False
 
-    def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
+    def kick(self, end: End, state: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Free flight under the zone's own stress."""
-        return free_velocity(end, 0.0), 0.0, memory
+        return free_velocity(end, 0.0), 0.0, state

@@ -24,17 +24,17 @@ class Piston(Boundary):
             check_times(self.table)
         return self
 
-    def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
+    def kick(self, end: End, state: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """The velocity of the middle of the step that follows."""
         velocity = end.side * interpolate(self.times, self.velocities, self.points, end.time + 0.5 * end.step_after)
-        return velocity, reaction(end, velocity), memory
+        return velocity, reaction(end, velocity), state
 
     def start(self, velocity: float, mass: float, side: float) -> tuple[float, tuple[float, ...]]:
-        """The piston's own velocity."""
+        """Velocity (m/s) of the piston."""
         return side * float(self.velocities[0]), ()
 
-    def corners(self) -> tuple[float, ...]:
-        """The times of the table."""
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times (s) of the points of the table."""
         return tuple(float(time) for time in self.times[1:]) if self.table is not None else ()
 
     @derived

@@ -11,18 +11,18 @@ class Pressure(Boundary):
 
     pulse: Pulse
 
-    def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
+    def kick(self, end: End, state: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Each half of the kick takes the pressure at its own middle, so a jump at a step's end acts in full."""
         step = end.step_before + end.step_after
         before = self.pulse.pressure(end.time - 0.25 * end.step_before)
         after = self.pulse.pressure(end.time + 0.25 * end.step_after)
         force = (before * end.step_before + after * end.step_after) / step if step > 0.0 else after
-        return free_velocity(end, force), force, memory
+        return free_velocity(end, force), force, state
 
-    def corners(self) -> tuple[float, ...]:
-        """The pulse's."""
-        return self.pulse.corners()
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times (s) of the breakpoints of the pulse."""
+        return self.pulse.breakpoints()
 
     def peak(self) -> float:
-        """The pulse's largest pressure, Pa."""
+        """Largest pressure (Pa) of the pulse."""
         return self.pulse.peak_pressure()

@@ -19,11 +19,11 @@ class Striker(Boundary):
 
     mass: float = positive("kg/m^2", "mass per area")
     velocity: float = number("m/s", "velocity at t = 0, positive to the right")
-    memory: ClassVar[dict[str, str]] = {"striker_position": "m", "striker_velocity": "m s-1"}
+    state_variables: ClassVar[dict[str, str]] = {"striker_position": "m", "striker_velocity": "m s-1"}
 
-    def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
+    def kick(self, end: End, state: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """Joint motion where they would overlap after this kick if both flew free, else that free flight."""
-        position, speed = memory
+        position, speed = state
         step = 0.5 * (end.step_before + end.step_after)
         joint = (end.mass * end.velocity + self.mass * speed - end.stress * step) / (end.mass + self.mass)
         free = free_velocity(end, 0.0)
@@ -43,6 +43,6 @@ class Striker(Boundary):
         joint = (mass * velocity + self.mass * inward) / (mass + self.mass)
         return joint, (0.0, joint)
 
-    def report(self, memory: np.ndarray, coordinate: float, side: float) -> np.ndarray:
+    def report(self, kept: np.ndarray, coordinate: float, side: float) -> np.ndarray:
         """Position and velocity in the laboratory."""
-        return np.array([coordinate, 0.0]) + side * memory
+        return np.array([coordinate, 0.0]) + side * kept

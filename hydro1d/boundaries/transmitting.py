@@ -14,9 +14,9 @@ class Transmitting(Boundary):
 
     supports = False
 
-    def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
+    def kick(self, end: End, state: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """The impedance force is centred in time, hence the implicit division."""
         damping = 0.25 * (end.step_before + end.step_after) * end.impedance / end.mass
         push = 0.5 * (end.step_before + end.step_after) * (end.initial_stress - end.stress) / end.mass
         velocity = ((1.0 - damping) * end.velocity + push) / (1.0 + damping)
-        return velocity, end.initial_stress - 0.5 * end.impedance * (end.velocity + velocity), memory
+        return velocity, end.initial_stress - 0.5 * end.impedance * (end.velocity + velocity), state

@@ -10,15 +10,15 @@ class Wall(Boundary):
 
     bonded: bool = True
 
-    def kick(self, end: End, memory: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
+    def kick(self, end: End, state: tuple[float, ...]) -> tuple[float, float, tuple[float, ...]]:
         """No motion, or free flight inward until the gap closes."""
         free = free_velocity(end, 0.0)
-        leaves = self.bonded == 0.0 and (free > 0.0 or end.displacement + free * end.step_after > 0.0)
+        leaves = not self.bonded and (free > 0.0 or end.displacement + free * end.step_after > 0.0)
         if leaves:
-            return free, 0.0, memory
+            return free, 0.0, state
         # Whatever is left of a closing gap is closed by this very step.
         velocity = -end.displacement / end.step_after if end.step_after > 0.0 else 0.0
-        return velocity, reaction(end, velocity), memory
+        return velocity, reaction(end, velocity), state
 
     def start(self, velocity: float, mass: float, side: float) -> tuple[float, tuple[float, ...]]:
         """The node at the wall stands still unless it is free to leave."""

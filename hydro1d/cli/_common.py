@@ -113,7 +113,7 @@ def progress_bar(quiet: bool) -> Iterator[Callable[[float], None] | None]:
         return
     from tqdm import tqdm
 
-    from hydro1d.kernels.build import announcing
+    from hydro1d.jit.build import announcing
 
     layout = "{percentage:3.0f}% {bar} {desc}{elapsed}, {remaining} left"
     with tqdm(total=1.0, bar_format=layout, leave=False, file=sys.stderr) as bar:

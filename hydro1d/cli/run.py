@@ -89,7 +89,7 @@ def _onward(args: argparse.Namespace, checkpoint: Path) -> str:
 def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:
     """Run the deck and keep a log for other programs."""
     from hydro1d.cli._log import JsonLog
-    from hydro1d.kernels.build import announcing
+    from hydro1d.jit.build import announcing
 
     log = JsonLog(args.log_json)
     try:

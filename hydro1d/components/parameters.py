@@ -71,12 +71,24 @@ class derived(functools.cached_property):  # noqa: N801 (reads as the decorator 
         super().__init__(function)
 
 
+# What version 0.1 called members that a user's class may have: of boundaries, of boundaries and pulses, of laws.
+FORMER_NAMES = {"memory": "state_variables", "corners": "breakpoints", "room": "strain_to_lockup"}
+
+
 class Component(BaseModel):
     """Base of everything that a deck can name: laws, boundaries, pulses."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", ignored_types=(derived,))
 
     name: ClassVar[str] = ""
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **keywords: Any) -> None:
+        """Let classes written for version 0.1 give their members the names of that version."""
+        super().__pydantic_init_subclass__(**keywords)
+        for former, name in FORMER_NAMES.items():
+            if former in vars(cls) and name not in vars(cls) and hasattr(cls, name):
+                setattr(cls, name, vars(cls)[former])
 
     @model_validator(mode="before")
     @classmethod

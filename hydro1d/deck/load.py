@@ -41,7 +41,7 @@ from hydro1d.deck.plausible import notes_on
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
 from hydro1d.laws.base import Law
-from hydro1d.viscosity import Viscosity
+from hydro1d.scheme.viscosity import Viscosity
 
 if TYPE_CHECKING:
     from hydro1d.deck.positions import Location

@@ -18,7 +18,7 @@ from hydro1d.deck.checks import cross_problems
 from hydro1d.deck.messages import deck_error, findings_of
 from hydro1d.deck.names import plugin_name
 from hydro1d.laws.base import Law
-from hydro1d.viscosity import Viscosity
+from hydro1d.scheme.viscosity import Viscosity
 
 MOST_ZONES = 10_000_000
 MOST_LAYERS = 2_000

@@ -9,7 +9,7 @@ from hydro1d.components.parameters import Component
 from hydro1d.components.plugins import available
 from hydro1d.deck.messages import allowed
 from hydro1d.deck.model import LONGEST_TITLE, Checkpoint, Layer, Output, Time
-from hydro1d.viscosity import Viscosity
+from hydro1d.scheme.viscosity import Viscosity
 
 _BOUNDS = ("exclusiveMinimum", "exclusiveMaximum", "minimum", "maximum")
 _CLASS_IN_FILE = {"type": "string", "pattern": r"\.py:", "description": '"file.py:Class", relative to the deck'}

@@ -1,54 +1,108 @@
 """What a law is, and what crushable foams share.
 
-A law is a frozen set of parameters and one point function. The point function is plain Python on floats: the solver
-compiles it, a debugger can step through it. Inside it, ``self`` offers the numeric parameters and everything marked
-`derived`; ``math`` functions and the law's own methods may be called.
+A law is a frozen set of parameters and one question, `respond`. It is plain Python on floats: the solver compiles it, a
+debugger can step through it. Inside it, ``self`` offers the numeric parameters and everything marked `derived`; ``math``
+functions and the law's own methods may be called.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from pydantic import Field, model_validator
 
 from hydro1d.components.parameters import Component, derived, fraction, positive
 
+LARGEST_STRAIN = "largest_strain"
 RIGID = 100.0  # times the elastic modulus: the stiffest unloading that still leaves an affordable time step
+
+
+class Point(NamedTuple):
+    """A material point that is asked: engineering strain, compression positive, and its increment over the step of
+    `time_step` (s, 0 at t = 0); specific internal energy (J/kg) at this strain; lateral strain, 0 in plane geometry."""
+
+    strain: float
+    strain_increment: float
+    time_step: float
+    energy: float
+    lateral_strain: float
+
+
+class Response(NamedTuple):
+    """What a law answers.
+
+    stress and lateral_stress (Pa; equal where the law has no shear); tangent dσ/dε of the loading curve (Pa), which scales
+    the linear viscosity; stiffness (Pa) with which the point answers a small change now, which limits the time step;
+    viscosity dσ/dε̇ (Pa s), 0 for a law without rate; limit_viscosity, whether the flow is smooth here but for shocks, so
+    that the viscosity is slope-limited; state, the new state variables.
+    """
+
+    stress: float
+    lateral_stress: float
+    tangent: float
+    stiffness: float
+    viscosity: float
+    limit_viscosity: bool
+    state: tuple[float, ...]
 
 
 class Law(Component):
     """Base of all laws.
 
-    `history` names the variables that a law keeps for itself, with their initial values; the largest strain so far is
-    kept by the solver for every law.
+    `state_variables` names what a law keeps of a point's past, with the values it begins with. A law that keeps the largest
+    strain so far names it `largest_strain`, first of all; the solver keeps it for every other law.
     """
 
     density: float = positive("kg/m^3", "initial density ρ0")
-    history: ClassVar[dict[str, float]] = {}
+    state_variables: ClassVar[dict[str, float]] = {}
     advice: ClassVar[str] = ""  # what to tell a user whose zone was driven to full strain
+    history: ClassVar[dict[str, float]] = {}  # what version 0.1 called the variables beside the largest strain
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **keywords: Any) -> None:
+        """Fit a law written for version 0.1, which answers by `point` and names its variables by `history`."""
+        super().__pydantic_init_subclass__(**keywords)
+        own = vars(cls)
+        if "history" in own and "state_variables" not in own:
+            cls.state_variables = {LARGEST_STRAIN: 0.0, **cls.history}
+        if "point" in own and "respond" not in own:
+            cls.respond = answer_by_point  # type: ignore[method-assign]
+            cls.state_variables = {LARGEST_STRAIN: 0.0, **cls.history}
+
+    def respond(self, point: Point, old: tuple[float, ...]) -> Response:
+        """Answer for one material point; ``old`` are its state variables before the step, never changed in place."""
+        raise NotImplementedError
+
+    def at(self, strain: float, largest: float = 0.0, *, rate: float = 0.0, energy: float = 0.0) -> Response:
+        """The answer at a strain to a point with this largest strain before, strain rate (1/s) and energy (J/kg)."""
+        old = {**self.state_variables, **({LARGEST_STRAIN: largest} if LARGEST_STRAIN in self.state_variables else {})}
+        return self.respond(Point(float(strain), rate, 1.0, float(energy), 0.0), tuple(map(float, old.values())))
 
     def point(
         self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]
     ) -> tuple[float, float, float, bool, tuple[float, ...]]:
-        """Answer for one material point.
+        """What version 0.1 asked: (stress, tangent, stiffness, limit_viscosity, own variables) at a strain.
 
-        Args:
-            strain: engineering strain ε = 1 − ρ0/ρ, compression positive.
-            largest: the largest strain so far, this one included.
-            rate: strain rate, 1/s.
-            energy: specific internal energy at this strain, J/kg.
-            history: the law's own variables, in the order of `history`; a tuple, hence never changed in place.
-
-        Returns:
-            stress (Pa); tangent dσ/dε of the loading curve (Pa), which scales the linear viscosity; stiffness with which
-            the point answers a small change now (Pa), which limits the time step; whether the point has never yielded
-            (the flow is smooth there but for shocks, and the viscosity is slope-limited); the new history.
+        A law written for that version overrides it; of any other it asks `respond`.
         """
-        raise NotImplementedError
+        old = ((largest,) if LARGEST_STRAIN in self.state_variables else ()) + history
+        response = self.respond(Point(strain, rate, 1.0, energy, 0.0), old)
+        own = response.state[len(old) - len(history) :]
+        return response.stress, response.tangent, response.stiffness, response.limit_viscosity, own
 
-    def room(self, strain: float, closing: float) -> float:
-        """Strain left to a zone that closes with ``closing`` (m/s) before it locks.
+    @property
+    def keeps_its_curve(self) -> bool:
+        """Whether `scheme.foam_pass` may remember its loading curve, which is asked for at the largest strain alone."""
+        return False
+
+    @classmethod
+    def own_variables(cls) -> dict[str, float]:
+        """State variables besides the largest strain, with the values they begin with."""
+        return {name: value for name, value in cls.state_variables.items() if name != LARGEST_STRAIN}
+
+    def strain_to_lockup(self, strain: float, compression: float) -> float:
+        """Strain left to a zone that closes with ``compression`` (m/s) before it locks.
 
         The quadratic viscosity grows as its inverse, which is ρ/ρ0 for a law that does not lock.
         """
@@ -76,6 +130,8 @@ class Foam(Law):
     σ = σ_load(ε_max) − H (ε_max − ε) with H = max(unloading modulus, tangent at ε_max) once the foam has yielded, E before.
     """
 
+    state_variables: ClassVar[dict[str, float]] = {LARGEST_STRAIN: 0.0}
+
     if TYPE_CHECKING:
         modulus: float  # E, Pa; a subclass declares it as a parameter or derives it
 
@@ -99,20 +155,20 @@ class Foam(Law):
         """Stress and tangent (Pa) of the first loading at ``strain``."""
         raise NotImplementedError
 
-    def point(
-        self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]
-    ) -> tuple[float, float, float, bool, tuple[float, ...]]:
+    def respond(self, point: Point, old: tuple[float, ...]) -> Response:
         """Loading curve up to the largest strain, a steep line below it."""
-        top = strain if self.is_reversible > 0.0 else largest
-        stress, tangent = self.loading(top)
+        largest = max(old[0], point.strain)
+        top = point.strain if self.is_reversible else largest
+        curve, tangent = self.loading(top)
         stiffness = self.slope_below(largest, tangent)
-        return (
-            self.stress_below(top - strain, stress, stiffness),
-            tangent,
-            stiffness,
-            self.never_yielded(largest),
-            history,
-        )
+        stress = self.stress_below(top - point.strain, curve, stiffness)
+        state = (largest,) + old[1:]  # noqa: RUF005 (compiled code has no * in a tuple)
+        return Response(stress, stress, tangent, stiffness, 0.0, self.never_yielded(largest), state)
+
+    @property
+    def keeps_its_curve(self) -> bool:
+        """Whether it answers as foams do, unloads on its steep line, and has no variables of its own."""
+        return type(self).respond is Foam.respond and not self.is_reversible and not self.own_variables()
 
     def never_yielded(self, largest: float) -> bool:
         """Whether a point with this largest strain has never yielded."""
@@ -127,9 +183,9 @@ class Foam(Law):
         return max(stress - slope * below, self.least_stress)
 
     @derived
-    def is_reversible(self) -> float:
-        """1 where the foam retraces its loading curve."""
-        return float(self.unloading == "reversible")
+    def is_reversible(self) -> bool:
+        """Whether the foam retraces its loading curve."""
+        return self.unloading == "reversible"
 
     @derived
     def unloading_stiffness(self) -> float:
@@ -147,22 +203,22 @@ class Foam(Law):
         """At the tension cut-off."""
         return stress <= self.least_stress
 
-    def room(self, strain: float, closing: float) -> float:
+    def strain_to_lockup(self, strain: float, compression: float) -> float:
         """Strain to densification and what a zone that closes so fast needs beyond it.
 
         The slower the zone, the less: a weak front ends just past densification, where the curve is still flat and would not
         stop it before it is crushed too far, which unloading makes final. In the limit of slow closing the quadratic term
         is a linear one with the speed of waves on the secant of the hardening.
         """
-        beyond = min(self.hardening_strain, closing * self.hardening_slowness + 1e-30)
+        beyond = min(self.hardening_strain, compression * self.hardening_slowness + 1e-30)
         locked = max(self.densification - strain, 0.0) + beyond
-        return min(1.0 - strain, locked if self.locks > 0.0 else 1.0)
+        return min(1.0 - strain, locked if self.locks else 1.0)
 
     @derived
-    def locks(self) -> float:
-        """1 for a curve with a plateau: at least a quarter of the way from yield to twice its stress is nearly flat."""
+    def locks(self) -> bool:
+        """Whether the curve has a plateau: at least a quarter of the way from yield to twice its stress is nearly flat."""
         yielded, doubled = min(self.yield_strain, 1.0), self.strain_at(2.0)
-        return float(self.strain_at(1.05) - yielded >= 0.25 * (doubled - yielded))
+        return self.strain_at(1.05) - yielded >= 0.25 * (doubled - yielded)
 
     @derived
     def hardening_strain(self) -> float:
@@ -247,6 +303,15 @@ class PlateauFoam(Foam):
         return self.densification_strain
 
     @derived
-    def locks(self) -> float:
+    def locks(self) -> bool:
         """Always: the plateau is there by definition."""
-        return 1.0
+        return True
+
+
+def answer_by_point(self: Any, point: Point, old: tuple[float, ...]) -> Response:
+    """The answer of a law written for version 0.1, by its `point`."""
+    largest = max(old[0], point.strain)
+    rate = point.strain_increment / point.time_step if point.time_step > 0.0 else 0.0
+    stress, tangent, stiffness, smooth, history = self.point(point.strain, largest, rate, point.energy, old[1:])
+    state = (largest,) + history  # noqa: RUF005 (compiled code has no * in a tuple)
+    return Response(stress, stress, tangent, stiffness, 0.0, smooth, state)

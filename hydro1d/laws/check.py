@@ -6,9 +6,10 @@ import math
 
 from hydro1d.components.parameters import derived
 from hydro1d.errors import DeckError
-from hydro1d.laws.base import Foam, Law
+from hydro1d.laws.base import Foam, Law, Point, Response
 
 _STRAINS = (0.0, 1e-6, 1e-4, 1e-3, *(0.005 * k for k in range(1, 181)))
+_STEP = 1.0  # s
 _START = 1e-6  # a strain at which no foam has yielded
 
 
@@ -16,19 +17,18 @@ def check_law(law: Law) -> None:
     """Load and unload a material point. Raises DeckError, in one sentence, for a law that cannot be run.
 
     Stress and moduli must be finite, moduli not negative, the stiffness positive where it starts, the answer the same when
-    asked twice, the history a tuple of as many floats as the law declares; a foam's curve begins along its elastic line, and
+    asked twice, the state a tuple of as many floats as the law declares; a foam's curve begins along its elastic line, and
     its derived constants can be computed.
     """
     try:
-        history = tuple(float(value) for value in type(law).history.values())
-        largest, energy = 0.0, float(law.initial_energy)
+        state = tuple(float(value) for value in type(law).state_variables.values())
         for strain in (*_STRAINS, *reversed(_STRAINS), -1e-3):
-            largest = max(largest, strain)
-            answer = law.point(strain, largest, 0.0, energy, history)
-            _check_answer(law, strain, answer, len(history))
-            if law.point(strain, largest, 0.0, energy, answer[4]) != answer and not history:
+            point = Point(strain, 0.0, _STEP, float(law.initial_energy), 0.0)
+            response = _asked(law, point, state)
+            _check_response(strain, response, len(state))
+            if law.respond(point, response.state) != response and not law.own_variables():
                 raise ValueError(f"answers differently when asked twice at strain {strain:g}")
-            history = answer[4]
+            state = response.state
         if isinstance(law, Foam):
             _check_start(law)
         _check_derived(law)
@@ -73,16 +73,22 @@ def _reason(law: Law, error: Exception) -> str:
     return text
 
 
-def _check_answer(law: Law, strain: float, answer: tuple, remembered: int) -> None:
-    if not isinstance(answer, tuple) or len(answer) != 5:
-        raise ValueError("point must return (stress, tangent, stiffness, smooth, history)")
-    stress, tangent, stiffness, _, history = answer
-    for name, value in (("stress", stress), ("tangent", tangent), ("stiffness", stiffness)):
+def _asked(law: Law, point: Point, state: tuple[float, ...]) -> Response:
+    response = law.respond(point, state)
+    if not isinstance(response, Response):
+        raise ValueError(f"respond must return a Response({', '.join(Response._fields)})")
+    return response
+
+
+def _check_response(strain: float, response: Response, variables: int) -> None:
+    for name in ("stress", "lateral_stress", "tangent", "stiffness", "viscosity"):
+        value = getattr(response, name)
         if not math.isfinite(value):
             raise ValueError(f"{name} is {value} at strain {strain:g}; it must be finite")
+    tangent, stiffness = response.tangent, response.stiffness
     if tangent < 0.0 or stiffness < 0.0 or (strain == 0.0 and stiffness == 0.0):
         raise ValueError(
             f"tangent {tangent:g} and stiffness {stiffness:g} Pa at strain {strain:g} must not be negative"
         )
-    if not isinstance(history, tuple) or len(history) != remembered:
-        raise ValueError(f"history must be a tuple of {remembered} numbers, as the class declares")
+    if not isinstance(response.state, tuple) or len(response.state) != variables:
+        raise ValueError(f"state must be a tuple of {variables} numbers, as the class declares")

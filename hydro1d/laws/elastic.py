@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hydro1d.components.parameters import positive
-from hydro1d.laws.base import Law
+from hydro1d.laws.base import Law, Point, Response
 
 
 class Elastic(Law):
@@ -11,8 +11,7 @@ class Elastic(Law):
 
     modulus: float = positive("Pa", "elastic modulus E")
 
-    def point(
-        self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]
-    ) -> tuple[float, float, float, bool, tuple[float, ...]]:
+    def respond(self, point: Point, old: tuple[float, ...]) -> Response:
         """Stress E ε."""
-        return self.modulus * strain, self.modulus, self.modulus, True, history
+        stress = self.modulus * point.strain
+        return Response(stress, stress, self.modulus, self.modulus, 0.0, True, old)

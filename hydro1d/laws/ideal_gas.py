@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hydro1d.components.parameters import above, derived, positive
-from hydro1d.laws.base import Law
+from hydro1d.laws.base import Law, Point, Response
 
 
 class IdealGas(Law):
@@ -12,16 +12,14 @@ class IdealGas(Law):
     gamma: float = above(1.0, "1", "ratio of specific heats γ")
     pressure: float = positive("Pa", "initial pressure")
 
-    def point(
-        self, strain: float, largest: float, rate: float, energy: float, history: tuple[float, ...]
-    ) -> tuple[float, float, float, bool, tuple[float, ...]]:
+    def respond(self, point: Point, old: tuple[float, ...]) -> Response:
         """Pressure and isentropic modulus."""
-        inverse = 1.0 / (1.0 - strain)
-        pressure = (self.gamma - 1.0) * self.density * inverse * energy
+        inverse = 1.0 / (1.0 - point.strain)
+        pressure = (self.gamma - 1.0) * self.density * inverse * point.energy
         modulus = self.gamma * pressure * inverse
-        return pressure, modulus, modulus, True, history
+        return Response(pressure, pressure, modulus, modulus, 0.0, True, old)
 
-    def room(self, strain: float, closing: float) -> float:
+    def strain_to_lockup(self, strain: float, compression: float) -> float:
         """Makes (γ + 1)/4 of the default coefficient 2: half of a strong shock's own q, (γ + 1)/2 ρ Δv² (Kuropatenko 1967).
 
         A gas does not lock, and keeps no overshoot as a foam does.

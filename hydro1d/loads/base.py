@@ -1,4 +1,4 @@
-"""What a pulse is: a pressure in time, and the times of its corners."""
+"""What a pulse is: a pressure in time, and the times of its breakpoints."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ class Pulse(Component):
     """Base of all pulses. `pressure` is compiled like a law's point function."""
 
     def pressure(self, time: float) -> float:
-        """Pressure (Pa) at ``time`` (s) ≥ 0, never asked for exactly at a corner."""
+        """Pressure (Pa) at ``time`` (s) ≥ 0, never asked for exactly at a breakpoint."""
         raise NotImplementedError
 
-    def corners(self) -> tuple[float, ...]:
+    def breakpoints(self) -> tuple[float, ...]:
         """Times (s) of jumps and kinks."""
         return ()
 

@@ -20,8 +20,8 @@ class Friedlander(Pulse):
         """The modified Friedlander equation."""
         share = time / self.duration
         value = self.peak * (1.0 - share) * math.exp(-self.decay * share)
-        return value if self.negative_phase > 0.0 else max(value, 0.0)
+        return value if self.negative_phase else max(value, 0.0)
 
-    def corners(self) -> tuple[float, ...]:
+    def breakpoints(self) -> tuple[float, ...]:
         """The end of the positive phase."""
         return (self.duration,)

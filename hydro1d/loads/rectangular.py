@@ -16,6 +16,6 @@ class Rectangular(Pulse):
         """The peak, then nothing."""
         return self.peak if time < self.duration else 0.0
 
-    def corners(self) -> tuple[float, ...]:
+    def breakpoints(self) -> tuple[float, ...]:
         """The end of the pulse."""
         return (self.duration,)

@@ -23,7 +23,7 @@ class Table(Pulse):
         """Linear interpolation."""
         return interpolate(self.times, self.pressures, self.points, time)
 
-    def corners(self) -> tuple[float, ...]:
+    def breakpoints(self) -> tuple[float, ...]:
         """The times of the points."""
         return tuple(time for time, _ in self.table if time > 0.0)
 

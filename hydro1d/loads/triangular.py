@@ -16,6 +16,6 @@ class Triangular(Pulse):
         """A straight line to zero."""
         return max(self.peak * (1.0 - time / self.duration), 0.0)
 
-    def corners(self) -> tuple[float, ...]:
+    def breakpoints(self) -> tuple[float, ...]:
         """The end of the pulse."""
         return (self.duration,)

@@ -50,10 +50,7 @@ def _draw_loading(axes: Axes, law: Law, strains: np.ndarray, stresses: np.ndarra
     yielded = float(getattr(law, "yield_strain", 0.0))
     for k, start in enumerate(np.linspace(yielded, top, UNLOADINGS + 1)[1:]):
         down = np.linspace(start, max(start - 1.2 * _give(law, start), -0.02), 120)
-        answers = [
-            law.point(float(strain), float(start), 0.0, 0.0, tuple(type(law).history.values()))[0] for strain in down
-        ]
-        path = np.array(answers)
+        path = np.array([law.at(strain, start).stress for strain in down])
         axes.plot(down, path / scale.size, color=PALETTE[0], linewidth=1.0, label="unloading" if k == 0 else None)
     for strain, text in _marks(law):
         if 0.0 < strain < top:
@@ -69,8 +66,9 @@ def _draw_loading(axes: Axes, law: Law, strains: np.ndarray, stresses: np.ndarra
 
 def _give(law: Law, start: float) -> float:
     """Strain that unloading from `start` gives back."""
-    stress, _, stiffness, *_ = law.point(start, start, 0.0, 0.0, tuple(type(law).history.values()))
-    return start if getattr(law, "unloading", "") == "reversible" else float(stress) / float(stiffness)
+    response = law.at(start, start)
+    is_reversible = getattr(law, "unloading", "") == "reversible"
+    return start if is_reversible else float(response.stress) / float(response.stiffness)
 
 
 def _marks(law: Law) -> list[tuple[float, str]]:
@@ -80,7 +78,7 @@ def _marks(law: Law) -> list[tuple[float, str]]:
 
 
 def _draw_moduli(axes: Axes, law: Law, strains: np.ndarray, tangents: np.ndarray) -> None:
-    stiff = [law.point(float(e), float(e), 0.0, 0.0, tuple(type(law).history.values()))[2] for e in strains]
+    stiff = [law.at(e, e).stiffness for e in strains]
     scale = scale_for("Pa", tangents)
     positive = np.where(tangents > 0.0, tangents, np.nan)
     axes.plot(strains, positive / scale.size, color="#000000", linewidth=1.5, label="tangent of loading")

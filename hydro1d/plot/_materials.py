@@ -40,9 +40,9 @@ def loads_by_strain(law: Law) -> bool:
     """Whether the law is a curve of the strain: gases and laws that need energy or rate are not."""
     if callable(getattr(law, "loading", None)):
         return True
-    history = tuple(type(law).history.values())
     energy = law.initial_energy + 1e3
-    answers = [law.point(0.01, 0.01, rate, heat, history)[0] for rate, heat in ((0.0, 0.0), (1e3, 0.0), (0.0, energy))]
+    cases = ((0.0, 0.0), (1e3, 0.0), (0.0, energy))
+    answers = [law.at(0.01, 0.01, rate=rate, energy=heat).stress for rate, heat in cases]
     return answers[0] == answers[1] == answers[2]
 
 
@@ -72,8 +72,8 @@ def curve(law: Law, strains: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     if callable(getattr(law, "loading", None)):
         answers = np.array([law.loading(float(strain)) for strain in strains])  # type: ignore[attr-defined]
     else:
-        history = tuple(type(law).history.values())
-        answers = np.array([law.point(float(strain), float(strain), 0.0, 0.0, history)[:2] for strain in strains])
+        responses = [law.at(strain, strain) for strain in strains]
+        answers = np.array([(response.stress, response.tangent) for response in responses])
     return answers[:, 0], answers[:, 1]
 
 

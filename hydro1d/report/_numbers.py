@@ -181,9 +181,9 @@ def elastic_energy(run: Run, deck: Deck | None) -> float | None:
     total = 0.0
     for layer, part in zip(deck.layers, run.layers, strict=True):
         law = layer.law
-        if getattr(law, "unloading", None) != "elastic" or law.history:
+        if getattr(law, "unloading", None) != "elastic" or law.own_variables():
             return None
         for zone in range(part.zones.start, part.zones.stop):
-            stiffness = law.point(float(strain[zone]), float(largest[zone]), 0.0, 0.0, ())[2]
+            stiffness = law.at(strain[zone], largest[zone]).stiffness
             total += 0.5 * float(stress[zone]) ** 2 / stiffness * float(size[zone])
     return total

@@ -12,20 +12,19 @@ import numpy as np
 
 from hydro1d.boundaries.base import Boundary
 from hydro1d.errors import DeckError
-from hydro1d.kernels import layout, march, profiles
-from hydro1d.kernels import zones as zone_places
-from hydro1d.kernels.ends import MEMORY
-from hydro1d.kernels.program import Program
+from hydro1d.scheme import profiles, step
+from hydro1d.scheme.records import CLOCK, COLLAPSED, INVERTED, LAYER_STATE, NOT_FINITE, PAUSED
 from hydro1d.solver.column import Column, initial_velocities
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 from hydro1d.variables import NODE, ZONE
 
 ZONE_STEPS_PER_CALL = 20_000_000  # about a tenth of a second between looks at the world
 # Cycles. Stretches end at multiples of it: a block that breaks down is tried again from its start, wherever output and
 # checkpoints have cut the run, and a copy of the start is not made for every step.
-BLOCK = layout.CYCLE_BLOCK
+BLOCK = step.CYCLE_BLOCK
 STOPS = 16  # after which a stretch ends: profiles can be compressed while the next is calculated
-MOST_VALUES = 1 << 23  # of the profiles of a stretch; in longer columns it ends at every stop
+MAX_VALUES = 1 << 23  # of the profiles of a stretch; in longer columns it ends at every stop
 RETRIES = 3
 EASE = 1.0 / 16.0  # of the stable step, the first one: what the loads will move is not moving yet
 
@@ -82,41 +81,34 @@ class CheckpointPlan:
 
 def initial_state(column: Column, program: Program) -> State:
     """The column at t = 0: node velocities by the boundaries, forces, the first step, the energy to start from."""
-    zones, slabs = column.zones, column.slabs
-    variables = 1 + max(len(slab.law.history) for slab in slabs)
+    zones, width = column.zones, column.boundary_width
     state = State(
-        ledger=np.zeros(layout.LEDGER),
+        clock=np.zeros(1, dtype=CLOCK).view(np.recarray),
+        layer_state=np.zeros(len(column.layers), dtype=LAYER_STATE).view(np.recarray),
         velocity=np.zeros(zones + 3),
         displacement=np.zeros(zones + 1),
         energy=np.zeros(zones),
-        gained=np.zeros(zones),
+        increment=np.zeros(zones),
         force=np.zeros(zones),
         viscosity=np.zeros(zones),
-        material=np.zeros((variables, zones)),
-        memory=np.zeros((2, MEMORY)),
-        numbers=np.zeros((len(slabs), layout.NUMBERS)),
+        state=np.zeros((column.variables, zones)),
+        boundary_state=np.zeros((4, width)),
     )
-    viscosity = column.viscosity.coefficients()
-    for slab, numbers in zip(slabs, state.numbers, strict=True):
-        density = slab.law.density
-        numbers[: zone_places.NUMBERS] = (0.0, 0.0, 1.0 / slab.size, 1.0 / density, density, *viscosity)
-        numbers[layout.CRUSHED_STRAIN], numbers[layout.SIZE] = slab.law.crushed_strain, slab.size
-        numbers[layout.YIELD_STRAIN] = getattr(slab.law, "yield_strain", 0.0)
-        numbers[layout.ZONE_MASS] = slab.size * density
-        state.energy[slab.part] = slab.law.initial_energy
-        for k, value in enumerate(slab.law.history.values()):
-            state.material[1 + k, slab.part] = value
+    for block in column.layers:
+        state.energy[block.part] = [law.initial_energy for law in block.laws]
+        for k, value in enumerate(block.law.own_variables().values()):
+            state.state[1 + k, block.part] = value
     velocity = initial_velocities(column)
-    for side, (_, sign, boundary) in enumerate(column.ends):
+    for side, (name, sign, boundary) in enumerate(column.ends):
         node = -side
-        speed, memory = _started(boundary, sign * velocity[node], column.node_mass[node], sign, column.ends[side][0])
+        speed, kept = _started(boundary, sign * velocity[node], column.node_mass[node], sign, name)
         velocity[node] = sign * speed
-        state.memory[side, : len(memory)] = memory
+        state.boundary_state[side, : len(kept)] = kept
     state.velocity[1:-1] = velocity
     state.velocity[0], state.velocity[-1] = velocity[1], velocity[-2]
     _first_step(column, program, state)
     kinetic = 0.5 * np.sum(column.node_mass * velocity**2)
-    state.ledger[layout.FIRST_ENERGY] = kinetic + np.sum(column.zone_mass * state.energy)
+    state.clock[0].initial_energy = kinetic + np.sum(column.zone_mass * state.energy)
     return state
 
 
@@ -129,26 +121,16 @@ def _started(boundary: Boundary, velocity: float, mass: float, sign: float, side
 
 def _first_step(column: Column, program: Program, state: State) -> None:
     """Forces at t = 0 and the step that they allow; the first is shorter by `EASE`, and steps grow from there."""
-    stable = math.inf
-    for layer, slab in enumerate(column.slabs):
-        out = program.sweep_layer(state, layer)
-        fastest = march.fastest(state.numbers[layer], out[zone_places.STIFFNESS], out[zone_places.VISCOUS_SPEED])
-        stable = min(stable, slab.size / fastest)
-        state.ledger[layout.PEAK_STRESS] = max(state.ledger[layout.PEAK_STRESS], out[zone_places.STRESS])
-    state.ledger[layout.CFL] = column.cfl
-    state.ledger[layout.NEXT_STEP] = state.ledger[layout.FIRST_STEP] = column.cfl * stable
-    state.ledger[layout.FREE_STEP] = EASE * column.cfl * stable / march.GROWTH
-    state.ledger[layout.RIGHT_FRONT] = column.zones
-    state.ledger[layout.PEAK_LEFT], state.ledger[layout.PEAK_RIGHT] = state.force[0], state.force[-1]
-
-
-def set_ends(column: Column, program: Program) -> None:
-    """Impedance and initial stress that the boundaries may ask for."""
-    for side, (slab, sign) in enumerate(((column.slabs[0], 1.0), (column.slabs[-1], -1.0))):
-        law = slab.law
-        history = tuple(law.history.values())
-        stress, _, stiffness, _, _ = law.point(0.0, 0.0, 0.0, law.initial_energy, history)
-        program.end_numbers[side, 7:10] = math.sqrt(law.density * stiffness), stress, sign
+    stable, clock = math.inf, state.clock[0]
+    for number, layer in enumerate(program.own["layers"]):
+        found = program.sweep_layer(state, number)
+        stable = min(stable, layer.min_size / step.fastest(layer, found.stiffness, found.viscous_speed))
+        clock.peak_stress = max(clock.peak_stress, found.stress)
+    clock.cfl = column.cfl
+    clock.next_step = clock.first_step = column.cfl * stable
+    clock.free_step = EASE * column.cfl * stable / step.GROWTH
+    clock.right_front = column.zones
+    clock.peak_left_stress, clock.peak_right_stress = state.force[0], state.force[-1]
 
 
 def solve(
@@ -167,7 +149,6 @@ def solve(
     Raises DeckError for a load that makes no sense on its end of the column.
     """
     program = program or Program(column)
-    set_ends(column, program)
     begun = state is not None
     state = state if state is not None else initial_state(column, program)
     run = _Run(column, sink, state, program, checkpoints or CheckpointPlan(), progress, asked_to_stop)
@@ -194,10 +175,10 @@ class _Run:
         self.loop_seconds = 0.0
         self.saved_cycle, self.saved_time, self.saved_wall = state.cycle, state.time, time.monotonic()
         profile_times = set(column.profile_times.tolist())
-        times = sorted({*profile_times, *column.corners, column.end_time})
+        times = sorted({*profile_times, *column.breakpoints, column.end_time})
         self.stops = [(time, time in profile_times) for time in times if state.time < time <= column.end_time]
         most = STOPS + BLOCK  # for a step passes one at most
-        self.most_stops = most if most * program.profile_length <= MOST_VALUES else 1
+        self.most_stops = most if most * program.profile_length <= MAX_VALUES else 1
         self.start = state.copy()
 
     def open(self) -> None:
@@ -212,10 +193,10 @@ class _Run:
             if self.asked_to_stop():
                 return self.outcome("interrupted")
             status = self.stretch()
-            if status > layout.PAUSED:
+            if status > PAUSED:
                 return self.broken(status)
             self.hand_over()
-            del self.stops[: int(self.state.ledger[layout.PASSED])]
+            del self.stops[: int(self.program.call[0].passed_stops)]
             if self.progress is not None:
                 self.progress(self.state)
             self.save_if_due()
@@ -223,9 +204,9 @@ class _Run:
 
     def hand_over(self) -> None:
         """What the last call recorded."""
-        if self.state.ledger[layout.ROWS] > 0:
-            self.sink.history(*self.program.recorded(self.state))
-        for profile in self.program.profiles(self.state):
+        if self.program.call[0].rows > 0:
+            self.sink.history(*self.program.recorded())
+        for profile in self.program.profiles():
             self.sink.profile(frame(self.column, profile))
         self.sink.flush()
 
@@ -234,7 +215,7 @@ class _Run:
         start = self.start
         start.assign(self.state)
         status = self.advance(self.steps_per_call())
-        if status > layout.PAUSED:
+        if status > PAUSED:
             sound = (self.state.cycle - 1) // BLOCK * BLOCK - start.cycle  # the last cycle is the one that broke down
             self.state.assign(start)
             status = self.advance(sound) if sound > 0 else self.retry(start)
@@ -244,12 +225,13 @@ class _Run:
         """A block that broke down, with half the step, a quarter, an eighth."""
         for attempt in range(1, RETRIES + 1):
             self.state.assign(start)
-            self.state.ledger[layout.CFL] = self.column.cfl * 0.5**attempt
-            self.state.ledger[[layout.NEXT_STEP, layout.FREE_STEP]] *= 0.5**attempt
+            clock = self.state.clock[0]
+            clock.cfl = self.column.cfl * 0.5**attempt
+            clock.next_step, clock.free_step = clock.next_step * 0.5**attempt, clock.free_step * 0.5**attempt
             status = self.advance(BLOCK - start.cycle % BLOCK)
-            if status <= layout.PAUSED:
+            if status <= PAUSED:
                 break
-        self.state.ledger[layout.CFL] = self.column.cfl
+        self.state.clock[0].cfl = self.column.cfl
         return status
 
     def advance(self, steps: int) -> int:
@@ -271,7 +253,7 @@ class _Run:
         if self.plan.cycles is not None:
             end = min(end, (self.state.cycle // self.plan.cycles + 1) * self.plan.cycles + BLOCK - 1)
         if self.plan.time is not None:
-            steps = (self.saved_time + self.plan.time - self.state.time) / self.state.ledger[layout.NEXT_STEP]
+            steps = (self.saved_time + self.plan.time - self.state.time) / self.state.clock[0].next_step
             end = min(end, self.state.cycle + BLOCK + int(min(max(steps, 0.0), length)))
         return end // BLOCK * BLOCK - self.state.cycle
 
@@ -289,7 +271,7 @@ class _Run:
 
     def outcome(self, status: str, message: str = "", zone: int | None = None) -> Outcome:
         """Close the sink's books."""
-        self.sink.maxima({"largest_strain": self.state.material[0].copy()})
+        self.sink.maxima({"largest_strain": self.state.state[0].copy()})
         return Outcome(status, self.state.cycle, self.state.time, self.loop_seconds, message, zone, state=self.state)
 
     def broken(self, status: int) -> Outcome:
@@ -299,20 +281,20 @@ class _Run:
         strain = -np.diff(state.displacement) / np.diff(self.column.node_coordinate)
         self.program.advance_past(state, [(state.time, True)], steps=0, row_at_stop=False)
         self.hand_over()
-        bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.gained)
+        bad = ~np.isfinite(strain) | ~np.isfinite(state.force) | ~np.isfinite(state.increment)
         zone = int(np.argmax(bad)) if bad.any() else int(np.argmax(strain))
         cause = {
-            layout.INVERTED: f"the zone is inverted: its strain reached {strain[zone]:.6g}",
-            layout.NOT_FINITE: f"the state is not finite; the zone's strain is {strain[zone]:.6g}",
-            layout.COLLAPSED: f"the time step collapsed to {state.ledger[layout.NEXT_STEP]:.3g} s; the largest strain is "
+            INVERTED: f"the zone is inverted: its strain reached {strain[zone]:.6g}",
+            NOT_FINITE: f"the state is not finite; the zone's strain is {strain[zone]:.6g}",
+            COLLAPSED: f"the time step collapsed to {state.clock[0].next_step:.3g} s; the largest strain is "
             f"{strain[zone]:.6g}",
         }[status]
-        law = self.column.slabs[int(self.column.zone_layer[zone])].law
+        law = self.column.layers[int(self.column.zone_layer[zone])].law
         return self.outcome("failed", cause + (law.advice if strain[zone] > 0.95 else ""), zone)
 
 
 def frame(column: Column, profile: np.ndarray) -> Frame:
-    """A profile as `kernels.profiles` takes it, by names; the arrays are views of it."""
+    """A profile as `scheme.profiles` takes it, by names; the arrays are views of it."""
     cut = profiles.HEAD + profiles.NODE_FIELDS * (column.zones + 1)
     nodes, zones = profile[profiles.HEAD : cut].reshape(-1, column.zones + 1), profile[cut:].reshape(-1, column.zones)
     names = [variable.name for variable in (*ZONE, column.zone_history[0])]
@@ -320,8 +302,8 @@ def frame(column: Column, profile: np.ndarray) -> Frame:
     fields |= dict(zip(names, zones, strict=False))
     for name in [variable.name for variable in column.zone_history[1:]]:
         fields[name] = np.full(column.zones, np.nan)
-        for slab in column.slabs:
-            if name in slab.law.history:
-                own = zones[len(names) + list(slab.law.history).index(name)]
-                fields[name][slab.part] = own[slab.part]
+        for block in column.layers:
+            own = list(block.law.own_variables())
+            if name in own:
+                fields[name][block.part] = zones[len(names) + own.index(name)][block.part]
     return Frame(float(profile[0]), int(profile[1]), fields)

@@ -6,36 +6,35 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from hydro1d.kernels import layout
-from hydro1d.kernels.memory import placed
+from hydro1d.jit.memory import placed
+
+# The node pass goes through displacements and velocities in whole cache lines from node 1 on.
+_FIRST = {"velocity": 2, "displacement": 1, "increment": 0, "force": 0, "state": 0, "viscosity": 0, "energy": 0}
 
 
 @dataclass(frozen=True)
 class State:
-    """All that changes with time. The arrays stay where they are, their numbers change.
+    """All that changes with time, by the names of `scheme.records.Grid`. The arrays stay where they are, their numbers change.
 
-    ledger: clock, sums and maxima, see `kernels.layout`. velocity (zones + 3,) at half a step before the next kick, with a
-    ghost at each end; displacement (zones + 1,); energy (zones,) specific, at the last settling, and
-    gained (zones,) since then; force (zones,) σ + q; viscosity (zones,) q;
-    material (1 + history variables, zones), the largest strain first; memory (2, ·) of the boundaries; numbers (layers, ·),
-    whose running maxima count.
+    clock (1,) and layer_state (layers,): records. velocity (zones + 3,) at half a step before the next kick, with a ghost at
+    each end; displacement (zones + 1,); energy (zones,) specific, when it was last folded, and increment (zones,) since then;
+    force (zones,) σ + q; viscosity (zones,) q; state (variables, zones), the largest strain first; boundary_state (4, ·) of
+    the boundaries, then the same half a kick on.
     """
 
-    ledger: np.ndarray
+    clock: np.recarray
+    layer_state: np.recarray
     velocity: np.ndarray
     displacement: np.ndarray
     energy: np.ndarray
-    gained: np.ndarray
+    increment: np.ndarray
     force: np.ndarray
     viscosity: np.ndarray
-    material: np.ndarray
-    memory: np.ndarray
-    numbers: np.ndarray
+    state: np.ndarray
+    boundary_state: np.ndarray
 
     def __post_init__(self) -> None:
-        # The node pass goes through displacements and velocities in whole cache lines from node 1 on.
-        starts = {"velocity": 2, "displacement": 1, "gained": 0, "force": 0, "material": 0, "viscosity": 0, "energy": 0}
-        for place, (name, first) in enumerate(starts.items()):
+        for place, (name, first) in enumerate(_FIRST.items()):
             object.__setattr__(self, name, placed(getattr(self, name), place, first))
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -45,7 +44,8 @@ class State:
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray]) -> State:
         """The state that `arrays` described."""
-        return cls(**{field.name: np.array(arrays[field.name], dtype=float) for field in fields(cls)})
+        copies = {field.name: np.array(arrays[field.name]) for field in fields(cls)}
+        return cls(**{name: array.view(np.recarray) if array.dtype.names else array for name, array in copies.items()})
 
     def copy(self) -> State:
         """An independent copy."""
@@ -59,9 +59,9 @@ class State:
     @property
     def time(self) -> float:
         """Time of the stresses, s."""
-        return float(self.ledger[layout.TIME])
+        return float(self.clock[0].time)
 
     @property
     def cycle(self) -> int:
         """Number of steps taken."""
-        return int(self.ledger[layout.CYCLE])
+        return int(self.clock[0].cycle)

@@ -16,10 +16,10 @@ from hydro1d.analysis.quantity import parse_quantity
 from hydro1d.api import column_of
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import DeckError, Hydro1dError
-from hydro1d.kernels.program import Program
 from hydro1d.solver.column import Column
 from hydro1d.solver.driver import BLOCK, solve
 from hydro1d.solver.driver import Outcome as Ending
+from hydro1d.solver.program import Program
 from hydro1d.store import Layout, MemorySink, Run
 
 _WORK_PER_LOOK = 300_000  # zone steps between looks at the history: some tenths of a millisecond
@@ -119,7 +119,7 @@ def simulate(
     ending = solve(column, sink, program=program, asked_to_stop=lambda: sink.decided or asked_to_stop())
     if ending.status == "failed" and ending.state is not None:  # what was reached up to there counts
         program.advance(ending.state, stop=ending.state.time, steps=0, row_at_stop=True)
-        sink.history(*program.recorded(ending.state))
+        sink.history(*program.recorded())
     status = "decided" if ending.status == "interrupted" and sink.decided else ending.status
     ending = Ending(status, ending.cycles, ending.time, ending.wall_seconds, ending.message, ending.zone, ending.state)
     return sink.finish(status, ending.cycles, ending.wall_seconds), ending

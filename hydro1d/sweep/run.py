@@ -92,7 +92,7 @@ def _result(future: Future) -> dict[str, Any]:
 def digest(sweep: Sweep) -> str:
     """What a sweep's rows depend on, as one text: its jobs, its laws, and this version of hydro1d."""
     import hydro1d
-    from hydro1d.kernels.build import fingerprint
+    from hydro1d.jit.build import fingerprint
 
     jobs = [(job.overrides, job.quantities) for job in sweep.jobs()]
     try:

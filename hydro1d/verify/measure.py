@@ -116,7 +116,7 @@ class Front(NamedTuple):
 
 def measure_front(column: Column, fields: dict[str, np.ndarray], exact: Jump, coordinate: float, clear: float) -> Front:
     """Measure the front near ``coordinate`` of a uniform column; ahead of it the plateau reaches to ``clear`` (m)."""
-    size = column.slabs[0].size
+    size = column.layers[0].size
     strain, q = fields["strain"], fields["viscosity"]
     arrived, beyond = int(coordinate / size), min(int(clear / size), column.zones)
     quiet = q <= FRONT_SHARE * exact.stress

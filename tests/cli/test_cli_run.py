@@ -14,7 +14,7 @@ from hydro1d.cli import _common, main
 from hydro1d.cli.run import summary
 from hydro1d.deck import load_deck
 from hydro1d.errors import BreakdownError, FileProblem, Interrupted
-from hydro1d.kernels import build
+from hydro1d.jit import build
 
 
 def test_run_for_real(deck, capsys, tmp_path):
@@ -173,12 +173,12 @@ def test_compiling_is_said_on_a_terminal_and_to_the_log_and_not_when_quiet(deck,
 
 def test_the_bar_says_that_it_compiles_and_begins_anew_after_it(monkeypatch, capsys):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    monkeypatch.setattr(build, "_read", lambda key: None)
-    monkeypatch.setattr(build, "_write", lambda key, code: None)
-    monkeypatch.setattr(build, "_compile", lambda kernel, signature: b"")
+    monkeypatch.setattr(build.cache, "read", lambda key: None)
+    monkeypatch.setattr(build.compile, "object_code", lambda *arguments: (b"", False))
     monkeypatch.setattr(build, "_load", lambda code: 0)
+    shared = build.Shared("Nothing", {})
     with _common.progress_bar(quiet=False) as progress:
-        build.address("some kernel", "i", "of this test", lambda: None)
+        build.address(build.Request("some kernel", lambda _: None, "of this test"), shared)
         said = capsys.readouterr().err
         time.sleep(1.1)
         progress(0.5)
@@ -186,7 +186,7 @@ def test_the_bar_says_that_it_compiles_and_begins_anew_after_it(monkeypatch, cap
         progress(0.75)
     assert "compiling, once" in said
     assert "00:01" not in capsys.readouterr().err.split("50%")[-1]
-    build.address("another kernel", "i", "of this test", lambda: None)
+    build.address(build.Request("another kernel", lambda _: None, "of this test"), shared)
     assert capsys.readouterr().err == ""
 
 

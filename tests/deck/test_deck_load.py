@@ -16,7 +16,7 @@ from hydro1d.errors import DeckError, FileProblem
 from hydro1d.laws.elastic import Elastic
 from hydro1d.laws.epph import EPPH
 from hydro1d.loads.rectangular import Rectangular
-from hydro1d.viscosity import Viscosity
+from hydro1d.scheme.viscosity import Viscosity
 
 KEYS = {
     "density": 51.6,

@@ -23,7 +23,7 @@ from hydro1d.laws.rph import RPH
 from hydro1d.laws.rppl import RPPL
 from hydro1d.laws.table import Table
 from hydro1d.laws.trilinear import Trilinear
-from hydro1d.viscosity import Viscosity
+from hydro1d.scheme.viscosity import Viscosity
 
 FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
 EPPH_FOAM = EPPH(**FOAM, shock_slope=0.00105)

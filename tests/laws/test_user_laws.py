@@ -10,7 +10,7 @@ import pytest
 import hydro1d
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.wall import Wall
-from hydro1d.kernels import build
+from hydro1d.jit import build
 from hydro1d.laws.epph import EPPH
 from hydro1d.loads.constant import Constant
 
@@ -211,7 +211,7 @@ def test_a_refusal_without_a_line_still_names_the_function(tmp_path):
 
 
 def test_hydro1ds_own_kernels_are_not_blamed_on_anybody(monkeypatch):
-    from hydro1d.kernels import refusals
+    from hydro1d.jit import refusals
 
     failure = refusals.Failure(test_hydro1ds_own_kernels_are_not_blamed_on_anybody, ValueError("x"))
     assert refusals.explanation(EPPH, [failure]) is None

@@ -23,10 +23,10 @@ from hydro1d.boundaries.free import Free
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.laws.elastic import Elastic
 from hydro1d.loads.rectangular import Rectangular
+from hydro1d.scheme.viscosity import Viscosity
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
 from hydro1d.variables import HISTORY
-from hydro1d.viscosity import Viscosity
 
 DECK = (
     'title = "short"'

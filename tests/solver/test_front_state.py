@@ -17,7 +17,7 @@ from hydro1d import analytic
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.laws.eph import EPH
-from hydro1d.viscosity import Viscosity
+from hydro1d.scheme.viscosity import Viscosity
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 import viscosity_study as study

@@ -8,10 +8,10 @@ from columns import FOAM, PULSE, layer, run
 
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
-from hydro1d.kernels.program import Program
 from hydro1d.solver import driver as solver
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import CheckpointPlan
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 
 
@@ -52,7 +52,7 @@ def test_a_chain_of_restarts_ends_where_one_run_does():
 def test_a_stretch_that_passes_many_stops_takes_the_same_profiles_as_one_that_ends_at_each(monkeypatch):
     options = {"end": 4e-3, "profile_times": np.linspace(0, 4e-3, 200), "history": 7}
     _, many = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), **options)
-    monkeypatch.setattr(solver, "MOST_VALUES", 0)
+    monkeypatch.setattr(solver, "MAX_VALUES", 0)
     _, each = run([layer(FOAM, 1.0, 60)], PULSE, Wall(), **options)
     assert len(many.rows) < len(each.rows) / 5
     assert np.array_equal(np.concatenate(many.rows), np.concatenate(each.rows), equal_nan=True)

@@ -12,7 +12,6 @@ import pytest
 
 import hydro1d
 from hydro1d.errors import FileProblem
-from hydro1d.kernels import layout
 from hydro1d.store import writer
 
 DECK = """
@@ -236,14 +235,16 @@ def test_a_state_that_is_not_whole(whole, tmp_path, change):
         hydro1d.run(DECK, tmp_path / "b.h5", restart=path)
 
 
-@pytest.mark.parametrize("place", [layout.LEFT_FRONT, layout.RIGHT_FRONT, layout.LIMITING_LAYER, layout.CYCLE])
-@pytest.mark.parametrize("value", [-1.0, 1e300, np.nan, np.inf])
+@pytest.mark.parametrize("place", ["left_front", "right_front", "limiting_layer", "cycle"])
+@pytest.mark.parametrize("value", [-1, 2**53 + 1, 2**63 - 1, -(2**63)])
 def test_a_state_that_points_outside_its_arrays(whole, tmp_path, place, value):
     """A checkpoint with right checksums and shapes must not have compiled code read elsewhere."""
     path = tmp_path / "c.h5"
     path.write_bytes(whole[1][3].read_bytes())
     with h5py.File(path, "r+") as file:
-        file["state/ledger"][place] = value
-        file["state/ledger"].attrs["crc32"] = np.uint32(zlib.crc32(file["state/ledger"][()].tobytes()))
+        clock = file["state/clock"][()]
+        clock[place] = value
+        file["state/clock"][...] = clock
+        file["state/clock"].attrs["crc32"] = np.uint32(zlib.crc32(clock.tobytes()))
     with pytest.raises(FileProblem, match="its state makes no sense"):
         hydro1d.run(DECK, tmp_path / "b.h5", restart=path)

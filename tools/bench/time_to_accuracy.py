@@ -20,11 +20,11 @@ from hydro1d import analytic
 from hydro1d.benchmarks import cases, measure
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.transmitting import Transmitting
-from hydro1d.kernels.program import Program
 from hydro1d.loads.constant import Constant
+from hydro1d.scheme.viscosity import Viscosity
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
-from hydro1d.viscosity import Viscosity
+from hydro1d.solver.program import Program
 
 PRESSURE = 4.5 * cases.FOAM["plateau_stress"]
 

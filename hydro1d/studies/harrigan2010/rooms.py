@@ -10,12 +10,12 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from hydro1d.kernels import build
+from hydro1d.jit import build, reach
+from hydro1d.scheme.records import record
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.boundary import Ending, at_rest
 from hydro1d.sweep import find_flip
@@ -25,9 +25,25 @@ SLENDER = 1.0 - foam.PLATEAU / foam.MODULUS  # room at yield
 MODULUS, PLATEAU, DENSITY, LENGTH = foam.MODULUS, foam.PLATEAU, foam.DENSITY, foam.LENGTH
 FASTEST = 1.2  # most by which a step exceeds the one before
 
-# Places in what `march` is told.
-BETA, RATE, START, PLASTIC, LEAST_STRESS, LOCK, PRESSURE, DURATION, END, CFL, UNTIL_SETTLED = range(11)
-SIGNATURE = "ppppppppi"
+LOAD = record("beta rate start min_stress lock pressure duration end cfl", flags="plastic until_settled")
+
+
+class Masses(NamedTuple):
+    """What `march` works on: springs and load by `LOAD`; over springs room, least room, stress, and 1 where it is a rigid link;
+    over masses mass and, one more, velocity; what comes out, a `Story`."""
+
+    told: Any
+    mass: Any
+    room: Any
+    least: Any
+    velocity: Any
+    stress: Any
+    rigid: Any
+    out: Any
+    count: int
+
+
+SHARED = build.Shared("Masses", {name: "f8" for name in Masses._fields} | {"told": LOAD, "count": int})
 
 
 class Chain(NamedTuple):
@@ -66,11 +82,13 @@ def follow(chain: Chain, pressure: float, duration: float, end: float, until_set
     mass = np.full(chain.masses, DENSITY * LENGTH / chain.masses)
     mass[0] *= chain.end_mass
     rate, start = chain.gamma * 0.5 * math.pi / FULL, math.tan((1.0 - chain.gamma) * 0.5 * math.pi)
-    spring = (chain.beta, rate, start, chain.plastic, -math.inf if chain.pulls else 0.0, chain.lock)
-    told = np.array([*spring, pressure, duration, end, chain.cfl, until_settled], dtype=float)
+    told = np.zeros(1, dtype=LOAD).view(np.recarray)
+    told.beta, told.rate, told.start, told.plastic = chain.beta, rate, start, chain.plastic
+    told.min_stress, told.lock, told.cfl = -math.inf if chain.pulls else 0.0, chain.lock, chain.cfl
+    told.pressure, told.duration, told.end, told.until_settled = pressure, duration, end, until_settled
     room, least, rest = np.ones(chain.masses), np.ones(chain.masses), np.zeros((3, chain.masses + 1))
     out = np.full(len(Story._fields), math.nan)
-    _marching()(told, mass, room, least, *rest, out, chain.masses)
+    _marching()(Masses(told, mass, room, least, *rest, out, chain.masses))
     return Story(*out.tolist())
 
 
@@ -110,13 +128,13 @@ def answers(chain: Chain, pressure: float, shares: np.ndarray) -> tuple[np.ndarr
 
 
 @functools.cache
-def _marching() -> Callable[..., None]:
+def _marching() -> Callable[[Masses], None]:
     """`march` for arrays, compiled, or as it stands for a debugger."""
     if build.interpreted():
-        return march
-    where = build.address("chain of rooms", SIGNATURE, Path(__file__).read_text(encoding="utf-8"), lambda: march)
-    run = build.function(where, SIGNATURE)
-    return lambda *a: run(*(array.ctypes.data for array in a[:-1]), a[-1])
+        return lambda m: march(m._replace(told=m.told[0]))
+    request = build.Request("chain of rooms", lambda _: march, reach.digest(march), is_leaf=False)
+    run = build.function(build.address(request, SHARED))
+    return lambda m: run(build.table(m, SHARED.fields).ctypes.data)
 
 
 def stress_and_stiffness(room: float, told: Any) -> tuple[float, float]:
@@ -125,46 +143,46 @@ def stress_and_stiffness(room: float, told: Any) -> tuple[float, float]:
         return MODULUS * (1.0 - room), MODULUS
     if room > FULL:
         return PLATEAU, 0.0
-    rise = 1.0 / math.tan(told[RATE] * room)
-    scale = PLATEAU * told[BETA]
-    return PLATEAU + scale * (rise - told[START]), scale * told[RATE] * (1.0 + rise * rise)
+    rise = 1.0 / math.tan(told.rate * room)
+    scale = PLATEAU * told.beta
+    return PLATEAU + scale * (rise - told.start), scale * told.rate * (1.0 + rise * rise)
 
 
-def press(told: Any, room: Any, least: Any, stress: Any, rigid: Any, count: int) -> float:
+def press(m: Masses) -> float:
     """Stress of every spring that is no rigid link; returns the largest stiffness, Pa."""
-    largest = MODULUS
-    for i in range(count):
+    told, room, least, largest = m.told, m.room, m.least, MODULUS
+    for i in range(m.count):
         least[i] = min(least[i], room[i])
-        if rigid[i] > 0.0:
+        if m.rigid[i] > 0.0:
             continue
-        if told[PLASTIC] > 0.0 and room[i] > least[i]:
+        if told.plastic and room[i] > least[i]:
             top, stiffness = stress_and_stiffness(least[i], told)
             stiffness = max(stiffness, MODULUS)
-            stress[i] = top - stiffness * (room[i] - least[i])
+            m.stress[i] = top - stiffness * (room[i] - least[i])
         else:
-            stress[i], stiffness = stress_and_stiffness(room[i], told)
-        stress[i] = max(stress[i], told[LEAST_STRESS])
+            m.stress[i], stiffness = stress_and_stiffness(room[i], told)
+        m.stress[i] = max(m.stress[i], told.min_stress)
         largest = max(largest, stiffness)
-        rigid[i] = 1.0 if told[PLASTIC] > 0.0 and room[i] < told[LOCK] else 0.0
+        m.rigid[i] = 1.0 if told.plastic and room[i] < told.lock else 0.0
     return largest
 
 
-def push(mass: Any, velocity: Any, stress: Any, rigid: Any, load: float, kick: float, count: int) -> None:
+def push(m: Masses, load: float, kick: float) -> None:
     """Kick masses; those that are linked move as one, and with the wall not at all."""
-    first = 0
+    first, count = 0, m.count
     while first < count:
-        last, heavy, momentum = first, mass[first], mass[first] * velocity[first]
-        while last < count and rigid[last] > 0.0:
+        last, heavy, momentum = first, m.mass[first], m.mass[first] * m.velocity[first]
+        while last < count and m.rigid[last] > 0.0:
             last += 1
             if last < count:
-                heavy += mass[last]
-                momentum += mass[last] * velocity[last]
+                heavy += m.mass[last]
+                momentum += m.mass[last] * m.velocity[last]
         after = 0.0
         if last < count:
-            before = load if first == 0 else stress[first - 1]
-            after = (momentum + (before - stress[last]) * kick) / heavy
+            before = load if first == 0 else m.stress[first - 1]
+            after = (momentum + (before - m.stress[last]) * kick) / heavy
         for i in range(first, min(last + 1, count)):
-            velocity[i] = after
+            m.velocity[i] = after
         first = last + 1
 
 
@@ -178,33 +196,30 @@ def soonest(room: Any, velocity: Any, size: float, count: int) -> float:
     return least
 
 
-def march(
-    told: Any, mass: Any, room: Any, least: Any, velocity: Any, stress: Any, rigid: Any, out: Any, count: int
-) -> None:
-    """The time loop of `follow`; ``out`` is a `Story`, its first three places NaN."""
+def march(m: Masses) -> None:
+    """The time loop of `follow`; `out` is a `Story`, its first three places NaN."""
+    told, room, out, count = m.told, m.room, m.out, m.count
     size, time, last, support, steps = LENGTH / count, 0.0, 0.0, 0.0, 0
-    while time < told[END]:
-        stiffness = press(told, room, least, stress, rigid, count)
-        support = max(support, stress[count - 1])
+    while time < told.end:
+        stiffness = press(m)
+        support = max(support, m.stress[count - 1])
         widest = widest_ever = 0.0
         for i in range(count):
-            widest, widest_ever = max(widest, room[i]), max(widest_ever, least[i])
+            widest, widest_ever = max(widest, room[i]), max(widest_ever, m.least[i])
         out[0] = time if out[0] != out[0] and widest_ever < FULL else out[0]
-        out[1] = time if out[1] != out[1] and stress[count - 1] > told[PRESSURE] else out[1]
+        out[1] = time if out[1] != out[1] and m.stress[count - 1] > told.pressure else out[1]
         out[2] = time if out[2] != out[2] and widest < FULL else out[2]
-        if told[UNTIL_SETTLED] > 0.0 and out[0] == out[0] and out[1] == out[1]:
+        if told.until_settled and out[0] == out[0] and out[1] == out[1]:
             break
-        step = told[CFL] * min(size * math.sqrt(DENSITY / stiffness), soonest(room, velocity, size, count))
+        step = told.cfl * min(size * math.sqrt(DENSITY / stiffness), soonest(room, m.velocity, size, count))
         step = min(step, FASTEST * last) if last > 0.0 else step
-        if time < told[DURATION] < time + step:
-            step = told[DURATION] - time
-        push(
-            mass, velocity, stress, rigid, told[PRESSURE] if time < told[DURATION] else 0.0, 0.5 * (last + step), count
-        )
+        if time < told.duration < time + step:
+            step = told.duration - time
+        push(m, told.pressure if time < told.duration else 0.0, 0.5 * (last + step))
         for i in range(count):
-            room[i] -= step / size * (velocity[i] - velocity[i + 1])
+            room[i] -= step / size * (m.velocity[i] - m.velocity[i + 1])
         time, last, steps = time + step, step, steps + 1
     narrowest = 1.0
     for i in range(count):
-        narrowest = min(narrowest, least[i])
+        narrowest = min(narrowest, m.least[i])
     out[3], out[4], out[5] = support, narrowest, steps

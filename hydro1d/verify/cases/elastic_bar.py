@@ -150,8 +150,8 @@ def _bound_of_step(table: Table, run: Recording) -> None:
     """The longest step against the bound of the linear scheme, Δx/(√(c² + D²) + D), D = c₁ c, worked out here anew."""
     linear = run.column.viscosity.coefficients()[1]
     bounds = [
-        slab.size / (bar.wave_speed * (math.sqrt(1.0 + linear**2) + linear))
-        for slab, bar in zip(run.column.slabs, (NEAR, FAR), strict=True)
+        block.size / (bar.wave_speed * (math.sqrt(1.0 + linear**2) + linear))
+        for block, bar in zip(run.column.layers, (NEAR, FAR), strict=True)
     ]
     share = float(run["time_step"].max()) / min(bounds)
     table.compare(

@@ -52,7 +52,7 @@ def _run(zones: int, ratio: float, end: float) -> Found:
 def _fronts(found: Found, theory: CompactionPulse) -> tuple[float, float]:
     """Largest distance of either front from the theory's, over L, until the windows of their measures overlap."""
     t = found.t[(found.t > 0.2e-3) & (found.t < theory.end_time)]
-    t = t[theory.uncrushed_share(t) * LENGTH > WINDOWS * found.run.column.slabs[0].size]
+    t = t[theory.uncrushed_share(t) * LENGTH > WINDOWS * found.run.column.layers[0].size]
     t = t[:: max(1, len(t) // 100)]
     exact = theory.history(t)
     proximal = np.abs(np.interp(t, found.t, found.proximal) - exact.front)
@@ -65,7 +65,7 @@ def _block_velocity(found: Found, frame: int) -> float:
     """Mean velocity of the block that the proximal front has crushed."""
     recorded = found.run.frames[frame]
     front = float(np.interp(recorded.time, found.t, found.proximal))
-    nodes = found.run.column.node_coordinate < front - 15.0 * found.run.column.slabs[0].size
+    nodes = found.run.column.node_coordinate < front - 15.0 * found.run.column.layers[0].size
     return float(np.mean(recorded.fields["velocity"][nodes]))
 
 
@@ -74,7 +74,7 @@ def _stage_1(table: Table, theory: CompactionPulse, found: Found) -> None:
     curve, jump = theory.curve, theory.loading.jumps()[-1]
     fields, column = found.run.frames[0].fields, found.run.column
     front = float(np.interp(DURATION, found.t, found.proximal))
-    node = int(front / column.slabs[0].size) - 15
+    node = int(front / column.layers[0].size) - 15
     behind = float(np.median(fields["strain"][5:node]))
     velocity = float(np.median(fields["velocity"][5:node]))
     place = float(fields["position"][node]) + (front - column.node_coordinate[node]) * (1.0 - behind)

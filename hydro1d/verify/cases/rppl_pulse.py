@@ -46,7 +46,7 @@ def _found(run: Recording) -> Found:
     t, front = run["time"], run["front_position"]
     at_end = float(np.interp(DURATION, t, front))
     fields = run.frames[0].fields
-    node = int(at_end / run.column.slabs[0].size) - 12
+    node = int(at_end / run.column.layers[0].size) - 12
     velocity = float(np.median(fields["velocity"][5:node]))
     stop = crossing(t, run["momentum"])
     return Found(velocity, at_end, stop, float(np.nanmax(front)))

@@ -88,7 +88,7 @@ def _run(material: Material, jump: Jump, boundary: Boundary, zones: int) -> Foun
 
 def _front_of(material: Material, jump: Jump, run: Recording, frame: Frame) -> Front:
     """The front of a profile; the precursor is left out with its own width."""
-    size = run.column.slabs[0].size
+    size = run.column.layers[0].size
     at = jump.front_speed * frame.time
     clear = min(1.0, max(material.curve.elastic_speed * frame.time - 30.0 * size, at + 12.0 * size))
     return measure_front(run.column, frame.fields, jump, at, clear)

@@ -88,11 +88,11 @@ def _conservation(table: Table, zones: int) -> None:
     for name, run in runs.items():
         _conserved(table, name, run)
     column = runs["layers under a pulse"].column
-    masses = sum(slab.law.density * slab.size * slab.zones for slab in column.slabs)
+    masses = sum(block.law.density * block.size * block.zones for block in column.layers)
     table.compare("mass of all nodes, kg/m²", masses, float(column.node_mass.sum()), 1e-13, LAYERS_MASS)
-    first, last = column.slabs[0], column.slabs[-1]
-    for name, slab, node in (("left", first, 0), ("right", last, -1)):
-        half = 0.5 * slab.law.density * slab.size
+    first, last = column.layers[0], column.layers[-1]
+    for name, block, node in (("left", first, 0), ("right", last, -1)):
+        half = 0.5 * block.law.density * block.size
         table.compare(f"mass of the {name} end node, kg/m²", half, float(column.node_mass[node]), 1e-13, LAYERS_MASS)
     lines = [line(1e3 * run["time"], np.abs(run["energy_error"]) + 1e-18, name) for name, run in runs.items()]
     table.panel("energy balance", "t, ms", "|energy error|", [_thinned(item) for item in lines], log=False)

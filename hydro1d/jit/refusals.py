@@ -44,7 +44,7 @@ class NotCompilable(Exception):
 
 
 @contextmanager
-def noticed() -> Iterator[None]:
+def noticed(copies: Any) -> Iterator[None]:
     """Raise NotCompilable, from numba's own error, where compiling fails."""
     from numba.core import event
 
@@ -57,7 +57,8 @@ def noticed() -> Iterator[None]:
         def on_end(self, event: Any) -> None:
             error = sys.exception()
             if error is not None:
-                failures.append(Failure(event.data["dispatcher"].py_func, error))
+                function = event.data["dispatcher"].py_func
+                failures.append(Failure(copies.owners.get(function, function), error))
 
     try:
         with event.install_listener("numba:compile", Listener()):

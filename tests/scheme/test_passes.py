@@ -1,4 +1,4 @@
-"""The compiled kernels: the same numbers as their Python, from run to run, however a column is cut."""
+"""The compiled passes: the same numbers as their Python, from run to run, however a column is cut."""
 
 from __future__ import annotations
 
@@ -17,39 +17,36 @@ from hydro1d.benchmarks import cases, reference
 from hydro1d.benchmarks.baseline import Baseline
 from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.wall import Wall
-from hydro1d.kernels import layout
-from hydro1d.kernels.memory import placed
-from hydro1d.kernels.program import Program
+from hydro1d.jit.memory import placed
 from hydro1d.laws._cotangent import cotangent
 from hydro1d.loads.rectangular import Rectangular
 from hydro1d.solver.column import build_column
-from hydro1d.solver.driver import frame, initial_state, set_ends
+from hydro1d.solver.driver import frame, initial_state
+from hydro1d.solver.program import Program
 from hydro1d.solver.state import State
 
 ROOT = Path(__file__).parents[2]
 STEPS = """
 import json, sys
 from hydro1d.benchmarks import cases
-from hydro1d.kernels.program import Program
-from hydro1d.solver.driver import frame, initial_state, set_ends
+from hydro1d.solver.program import Program
+from hydro1d.solver.driver import frame, initial_state
 answers = {}
 for name in cases.NAMES:
     program = Program(cases.column(name, 24, history=5, probes=[0.3]))
-    set_ends(program.column, program)
     state = initial_state(program.column, program)
     program.advance(state, stop=1.0, steps=150, row_at_stop=False)
-    rows, probes = program.recorded(state)
-    answers[name] = [state.velocity.tolist(), state.force.tolist(), (state.energy + state.gained).tolist(), rows[-1].tolist(),
+    rows, probes = program.recorded()
+    answers[name] = [state.velocity.tolist(), state.force.tolist(), (state.energy + state.increment).tolist(), rows[-1].tolist(),
                      probes[-1].tolist()]
     program.advance_past(state, [(state.time, True)], steps=0, row_at_stop=False)
-    answers[name] += [values.tolist() for values in frame(program.column, program.profiles(state)[0]).fields.values()]
+    answers[name] += [values.tolist() for values in frame(program.column, program.profiles()[0]).fields.values()]
 print(json.dumps(answers))
 """
 
 
 def started(column) -> tuple[Program, State]:
     program = Program(column)
-    set_ends(column, program)
     return program, initial_state(column, program)
 
 
@@ -64,10 +61,10 @@ def interpreted() -> dict:
 def test_compiled_and_interpreted_agree(name: str, interpreted: dict) -> None:
     program, state = started(cases.column(name, 24, history=5, probes=[0.3]))
     program.advance(state, stop=1.0, steps=150, row_at_stop=False)
-    rows, probes = program.recorded(state)
-    found = [state.velocity, state.force, state.energy + state.gained, rows[-1], probes[-1]]
+    rows, probes = program.recorded()
+    found = [state.velocity, state.force, state.energy + state.increment, rows[-1], probes[-1]]
     program.advance_past(state, [(state.time, True)], steps=0, row_at_stop=False)
-    found += frame(program.column, program.profiles(state)[0]).fields.values()
+    found += frame(program.column, program.profiles()[0]).fields.values()
     for k, (ours, theirs) in enumerate(zip(found, interpreted[name], strict=True)):
         expected = np.array(theirs)
         if k == 3:
@@ -84,8 +81,7 @@ def test_bits_do_not_depend_on_how_often_one_looks(name: str) -> None:
     for steps in (1, 2, 97, 300, 500):
         again.advance(other, stop=1.0, steps=steps, row_at_stop=False)
     for key, array in state.arrays().items():
-        part = slice(layout.STOP if key == "ledger" else None)  # beyond is what the calls asked for
-        np.testing.assert_array_equal(array[part], getattr(other, key)[part], err_msg=key)
+        np.testing.assert_array_equal(array, getattr(other, key), err_msg=key)
 
 
 def test_bits_do_not_depend_on_layers() -> None:
@@ -154,19 +150,3 @@ def test_refined_state_goes_on() -> None:
     program, states = cases.stations("epph", 4000, 1)
     assert program.advance(states[0], stop=1.0, steps=50, row_at_stop=False) == 1
     assert np.isfinite(states[0].force).all()
-
-
-def test_a_compiled_helper_serves_python_too():
-    """Machine code is left out for what only compiled code calls, but a law may use a function that Python calls as well."""
-    import numba
-
-    from hydro1d.kernels.lowering import only_lowered
-
-    @numba.njit
-    def square(value):
-        return value * value
-
-    with only_lowered():
-        numba.cfunc("f8(f8)")(lambda value: square(value) + 1.0)
-    assert len(square.signatures) == 1
-    assert square(3.0) == 9.0

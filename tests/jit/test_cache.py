@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from hydro1d.kernels import build
+from hydro1d.jit import cache
 
 ROOT = Path(__file__).parents[2]
 LAW = """
@@ -32,15 +32,14 @@ from pathlib import Path
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.free import Free
 from hydro1d.solver.column import build_column
-from hydro1d.kernels.program import Program
+from hydro1d.solver.program import Program
 from hydro1d.components.plugins import find
-from hydro1d.solver.driver import initial_state, set_ends
+from hydro1d.solver.driver import initial_state
 
 law = find("law", sys.argv[1], Path.cwd())(density=50.0, modulus=1e6)
 layer = SimpleNamespace(material="foam", law=law, thickness=1.0, zones=20, velocity=0.0)
 column = build_column([layer], Piston(velocity=20.0), Free(), end=1.0)
 program = Program(column)
-set_ends(column, program)
 state = initial_state(column, program)
 program.advance(state, stop=1e-3, steps=100, row_at_stop=False)
 print(repr(float(state.force[0])), "numba" in sys.modules)
@@ -146,6 +145,6 @@ def test_an_interrupted_write_leaves_nothing(monkeypatch: pytest.MonkeyPatch, tm
         raise OSError("no space left")
 
     monkeypatch.setattr(Path, "replace", full)
-    build._write("key", b"code")
+    cache.write("key", b"code")
     assert list(tmp_path.iterdir()) == []
-    assert build._read("key") is None
+    assert cache.read("key") is None
