@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-HERALD = 1e-9  # of the largest stress: less on a support is the numerical herald of a wave that has not arrived
-
 
 class Variable(NamedTuple):
     """Name, SI unit and description of a stored quantity."""

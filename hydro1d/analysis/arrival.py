@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from hydro1d.deck import Deck
     from hydro1d.laws.base import Law
 
-STEPS = 60  # of a bisection
+BISECTIONS = 60
 
 
 class Arrival(NamedTuple):
@@ -78,7 +78,7 @@ def front_speed(foam: Foam, pressure: float, velocity: float) -> float:
 
     if low >= 1.0 or reaches(low):
         return math.nan
-    for _ in range(STEPS):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
         try:
             low, high = (low, middle) if reaches(middle) else (middle, high)

@@ -14,7 +14,7 @@ import numpy as np
 
 from hydro1d.analysis.energy import elastic_energy
 from hydro1d.analysis.fronts import front_arrival
-from hydro1d.analysis.transmission import ends_of, felt_on
+from hydro1d.analysis.transmission import ends_of, transmitted_stress
 from hydro1d.components.units import UnitError, convert, is_number
 from hydro1d.deck import Deck
 from hydro1d.deck.messages import one_of, suggestion
@@ -66,7 +66,7 @@ def quantity_names() -> list[str]:
 
 
 def support_side(deck: Deck) -> str:
-    """The end away from the load."""
+    """`left` or `right`: the end away from the load."""
     return ends_of(deck).support
 
 
@@ -85,8 +85,8 @@ def _peak_support(run: Run, deck: Deck) -> float:
 
 def _enhancement(run: Run, deck: Deck) -> float:
     applied = applied_peak(deck)
-    felt = felt_on(run, support_side(deck), applied)
-    return felt / applied if applied > 0.0 and felt > 0.0 else float("nan")
+    transmitted = transmitted_stress(run, support_side(deck), applied)
+    return transmitted / applied if applied > 0.0 and transmitted > 0.0 else float("nan")
 
 
 def _crushed_time(run: Run, deck: Deck) -> float:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
     from pydantic.fields import FieldInfo
 
-LONGEST_TEXT = 100  # characters of a number with its unit
+MAX_TEXT = 100  # characters of a number with its unit
 
 
 class UnitError(ValueError):
@@ -84,7 +84,7 @@ def parse_unit(text: str, only_common: bool = False) -> Unit:
 
     With ``only_common`` pint is not asked.
     """
-    if len(text) > LONGEST_TEXT:
+    if len(text) > MAX_TEXT:
         raise UnitError(f"{shorten(text)} is not a unit")
     plain = text.replace("**", "^").replace("·", "*").replace("⋅", "*").replace("−", "-")
     plain = plain.replace("µ", "u").replace("μ", "u").translate(_SUPERSCRIPTS)
@@ -108,7 +108,7 @@ def parse_unit(text: str, only_common: bool = False) -> Unit:
 
 def _convert_text(text: str, unit: str) -> float:
     quoted = shorten(text)
-    if len(text) > LONGEST_TEXT:
+    if len(text) > MAX_TEXT:
         raise UnitError(f"{quoted} is too long for a number with a unit")
     body = text.strip().replace("−", "-")
     if comma := _COMMA.match(body):
@@ -144,7 +144,7 @@ def _scaled(number: re.Match[str], numerator: int, denominator: int, quoted: str
     power = int(exponent or 0) - len(decimals)
     if digits == 0:
         return 0.0
-    if abs(power) > 500:  # keeps the integers below short; the text is at most LONGEST_TEXT characters
+    if abs(power) > 500:  # keeps the integers below short; the text is at most MAX_TEXT characters
         raise UnitError(f"{quoted} is too {'large' if power > 0 else 'small'} for a floating-point number")
     try:
         size = digits * numerator * 10 ** max(power, 0) / (denominator * 10 ** max(-power, 0))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hydro1d.components.units import shorten
-from hydro1d.deck.messages import MOST_FOUND, Finding
+from hydro1d.deck.messages import MAX_FOUND, Finding
 from hydro1d.errors import Hydro1dError
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def cross_problems(
 def _outside(values: Sequence[float], most: float) -> list[tuple[int, float]]:
     """Numbers below 0 or above ``most``, with their indices; no more than anybody corrects at once."""
     outside = ((index, value) for index, value in enumerate(values) if not 0.0 <= value <= most)
-    return list(itertools.islice(outside, MOST_FOUND))
+    return list(itertools.islice(outside, MAX_FOUND))
 
 
 def _check_layers(layers: Sequence[Layer], most_zones: int) -> list[Finding]:

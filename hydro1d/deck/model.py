@@ -20,12 +20,12 @@ from hydro1d.deck.names import plugin_name
 from hydro1d.laws.base import Law
 from hydro1d.viscosity import Viscosity
 
-MOST_ZONES = 10_000_000
-MOST_LAYERS = 2_000
-MOST_PROFILES = 1_000_000
-MOST_PROBES = 10_000
-LONGEST_TITLE = 1000
-LONGEST_NAME = 200
+MAX_ZONES = 10_000_000
+MAX_LAYERS = 2_000
+MAX_PROFILES = 1_000_000
+MAX_PROBES = 10_000
+MAX_TITLE = 1000
+MAX_NAME = 200
 
 
 def plain_text(text: str) -> str:
@@ -40,9 +40,9 @@ class Layer(Component):
 
     law: Law
     thickness: float = positive("m", "thickness")
-    zones: int = Field(..., ge=1, le=MOST_ZONES, description="number of zones")
+    zones: int = Field(..., ge=1, le=MAX_ZONES, description="number of zones")
     velocity: float = number("m/s", "velocity at t = 0, positive to the right", default=0.0)
-    material: str = Field("", max_length=LONGEST_NAME, description="name of a [material.NAME] table")
+    material: str = Field("", max_length=MAX_NAME, description="name of a [material.NAME] table")
 
     _plain_material = field_validator("material")(plain_text)
 
@@ -58,7 +58,7 @@ class Time(Component):
 
 
 class Output(Component):
-    """What is stored, and when."""
+    """Output: times of profiles, cycles between history rows, positions of probes."""
 
     profiles: int | tuple[float, ...] = Field(
         100,
@@ -67,20 +67,20 @@ class Output(Component):
     )
     history: int = Field(10, ge=1, le=10**9, description="a row of the history every so many cycles")
     probes: tuple[float, ...] = Field(
-        (), json_schema_extra={"unit": "m"}, max_length=MOST_PROBES, description="Lagrangian positions of the probes"
+        (), json_schema_extra={"unit": "m"}, max_length=MAX_PROBES, description="Lagrangian positions of the probes"
     )
 
     @field_validator("profiles", mode="before")
     @classmethod
     def _count_or_times(cls, value: Any) -> Any:
-        if isinstance(value, int) and not isinstance(value, bool) and 2 <= value <= MOST_PROFILES:
+        if isinstance(value, int) and not isinstance(value, bool) and 2 <= value <= MAX_PROFILES:
             return value
-        if isinstance(value, list | tuple) and 1 <= len(value) <= MOST_PROFILES:
+        if isinstance(value, list | tuple) and 1 <= len(value) <= MAX_PROFILES:
             times = tuple(convert(time, "s") for time in value)
             if any(later <= earlier for earlier, later in itertools.pairwise(times)):
                 raise ValueError("the times must rise strictly")
             return times
-        raise ValueError(f"{shorten(value)} is neither a count from 2 to {MOST_PROFILES} nor a list of times")
+        raise ValueError(f"{shorten(value)} is neither a count from 2 to {MAX_PROFILES} nor a list of times")
 
 
 class Checkpoint(Component):
@@ -118,8 +118,8 @@ class Deck(Component):
 
     model_config = ConfigDict(arbitrary_types_allowed=False)
 
-    title: str = Field("", max_length=LONGEST_TITLE, description="a line of text that figures and files carry")
-    layers: tuple[Layer, ...] = Field(..., max_length=MOST_LAYERS)
+    title: str = Field("", max_length=MAX_TITLE, description="a line of text that figures and files carry")
+    layers: tuple[Layer, ...] = Field(..., max_length=MAX_LAYERS)
     left: Boundary
     right: Boundary
     time: Time
@@ -143,7 +143,7 @@ class Deck(Component):
 
     @model_validator(mode="after")
     def _as_a_whole(self) -> Deck:
-        found = cross_problems(self.layers, self.left, self.right, self.time, self.output, MOST_ZONES)
+        found = cross_problems(self.layers, self.left, self.right, self.time, self.output, MAX_ZONES)
         if found:
             raise deck_error(self.path, found)
         # Frozen for everyone else: what the parts could not know without each other is filled in here.

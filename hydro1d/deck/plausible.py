@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 _LIGHTEST = 5.0  # kg/m³; lighter solids are laboratory curiosities, and gases have other stresses
 _STRONG = 1e5  # Pa: beyond any solid lighter than the least density below
-_MOST_NAMED = 3
+_MAX_NAMED = 3
 
 
 class _Range(NamedTuple):
@@ -70,8 +70,8 @@ def notes_on(deck: Deck, data: Mapping[str, Any], folder: Path) -> tuple[str, ..
     odd = [(number, usual) for number, usual in _all(deck, laws, data, folder) if usual]
     if not odd:
         return ()
-    named = ", ".join(str(number) for number, _ in odd[:_MOST_NAMED])
-    more = f" and {len(odd) - _MOST_NAMED} more" if len(odd) > _MOST_NAMED else ""
+    named = ", ".join(str(number) for number, _ in odd[:_MAX_NAMED])
+    more = f" and {len(odd) - _MAX_NAMED} more" if len(odd) > _MAX_NAMED else ""
     first, usual = odd[0]
     return (f'is a unit missing? {named}{more}: a number without a unit is SI; "{first.value:g} {usual}" has one',)
 
@@ -112,7 +112,7 @@ def _is_too_strong(law: Law) -> bool:
 
 
 def _units(cls: type[BaseModel]) -> dict[str, str]:
-    """The unit of each field that has one."""
+    """Unit of each field that has one."""
     extras = {key: field.json_schema_extra for key, field in cls.model_fields.items()}
     return {key: str(extra["unit"]) for key, extra in extras.items() if isinstance(extra, dict) and "unit" in extra}
 

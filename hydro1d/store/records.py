@@ -13,7 +13,7 @@ from hydro1d.store.layout import Field
 from hydro1d.threads import threads_here
 
 _CHUNK = 65536  # values in a chunk, 512 KB: profiles and time series are both read at a fair speed
-_LONGEST = 16384  # rows in a chunk
+_MAX_ROWS = 16384  # rows in a chunk
 _PARALLEL = 1 << 20  # bytes that are worth starting threads for
 
 
@@ -51,7 +51,7 @@ class Table:
         self.fields = fields
         self.tail = tail
         width = max(int(np.prod(tail)), 1)
-        self.rows = min(max(_CHUNK // width, 1), _LONGEST)
+        self.rows = min(max(_CHUNK // width, 1), _MAX_ROWS)
         if expected:  # chunks of equal size waste least
             chunks = -(-expected // self.rows)
             self.rows = -(-expected // chunks)
