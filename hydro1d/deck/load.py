@@ -25,18 +25,8 @@ from hydro1d.deck.messages import (
     unknown_key,
     unknown_word,
 )
-from hydro1d.deck.model import (
-    MAX_LAYERS,
-    MAX_NAME,
-    MAX_TITLE,
-    MAX_ZONES,
-    Checkpoint,
-    Deck,
-    Layer,
-    Output,
-    Time,
-    plain_text,
-)
+from hydro1d.deck.model import Deck
+from hydro1d.deck.parts import MAX_LAYERS, MAX_NAME, MAX_TITLE, Checkpoint, Layer, Output, Time, plain_text
 from hydro1d.deck.plausible import notes_on
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
@@ -141,7 +131,7 @@ class _Builder:
             return  # Deck does it
         layers = parts["layers"]
         known = {finding.path for finding in self.found}
-        found = cross_problems(layers, parts["left"], parts["right"], parts["time"], parts["output"], MAX_ZONES)
+        found = cross_problems(layers, parts["left"], parts["right"], parts["time"], parts["output"])
         self.found += [finding for finding in found if finding.path not in known]
 
     def _title(self) -> str:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import BaseModel
 
+from hydro1d.components import tables
 from hydro1d.deck.messages import path_text
 
 if TYPE_CHECKING:
@@ -139,11 +140,9 @@ def _largest(path: Location, table: Mapping[str, Any], law: Law, folder: Path) -
 
 def _has_unit(table: Any, units: tuple[str, ...], folder: Path) -> bool:
     """Whether the second column of a table, in the deck or in a file, was given with a unit."""
-    from hydro1d.components.tables import TableError, read_rows
-
     if not isinstance(table, str):
         return any(isinstance(row[1], str) for row in table)
     try:
-        return bool(read_rows(table, (units[0], units[1]), folder)[1][1])
-    except TableError:  # changed since the law read it
+        return bool(tables.read_rows(table, (units[0], units[1]), folder)[1][1])
+    except tables.TableError:  # changed since the law read it
         return True

@@ -8,7 +8,7 @@ from typing import Any
 from hydro1d.components.parameters import Component
 from hydro1d.components.plugins import available
 from hydro1d.deck.messages import allowed
-from hydro1d.deck.model import MAX_TITLE, Checkpoint, Layer, Output, Time
+from hydro1d.deck.parts import MAX_TITLE, Checkpoint, Layer, Output, Time
 from hydro1d.viscosity import Viscosity
 
 _BOUNDS = ("exclusiveMinimum", "exclusiveMaximum", "minimum", "maximum")
