@@ -15,6 +15,7 @@ import numpy as np
 from hydro1d.analysis.energy import elastic_energy
 from hydro1d.analysis.fronts import front_arrival
 from hydro1d.analysis.transmission import ends_of, transmitted_stress
+from hydro1d.components.plugins import builtin_names, find
 from hydro1d.components.units import UnitError, convert, is_number
 from hydro1d.deck import Deck
 from hydro1d.deck.messages import one_of, suggestion
@@ -22,11 +23,6 @@ from hydro1d.store import Run
 from hydro1d.variables import HISTORY
 
 _CALL = re.compile(r"\s*([A-Za-z_]\w*)\s*(?:\(\s*([^()]*?)\s*\))?\s*")
-_BOUNDARY_COLUMNS = {
-    f"{side}_striker_{name}": units
-    for side in ("left", "right")
-    for name, units in (("position", "m"), ("velocity", "m s-1"))
-}
 
 
 class Quantity(NamedTuple):
@@ -209,7 +205,7 @@ def _any(values: np.ndarray) -> bool:
 
 
 def _reduction(name: str, column: str) -> Quantity:
-    units = {variable.name: variable.units for variable in HISTORY} | _BOUNDARY_COLUMNS
+    units = {variable.name: variable.units for variable in HISTORY} | _boundary_columns()
     if column not in units:
         known = [*units]
         raise ValueError(
@@ -224,6 +220,12 @@ def _reduction(name: str, column: str) -> Quantity:
         return reduce(np.asarray(run.history["time"]), np.asarray(run.history[column]))
 
     return Quantity(f"{name}({column})", unit, f"{label} {column.replace('_', ' ')}", take)
+
+
+def _boundary_columns() -> dict[str, str]:
+    """Columns that hydro1d's own boundaries add to the history, with their SI units."""
+    kept = [getattr(find("boundary", name), "memory", {}) for name in builtin_names("boundary")]
+    return {f"{side}_{name}": units for side in ("left", "right") for own in kept for name, units in own.items()}
 
 
 def _arrival(name: str, argument: str) -> Quantity:

@@ -88,7 +88,6 @@ STATIC = {
 }
 MAXIMA = {
     "largest_strain": Field("maximum_strain", ("zone",), "1", "largest strain of the zone, every cycle counted"),
-    "largest_stress": Field("maximum_stress", ("zone",), "Pa", "largest stress of the zone, every cycle counted"),
 }
 _TIME = Field("time", ("time",), "s", "time")
 
