@@ -138,7 +138,7 @@ def replay(checkpoint: Checkpoint, recorder: Recorder) -> None:
             if values.shape[2:] != table.tail:
                 raise FileProblem(f"cannot carry on from {checkpoint.path}: it has another number of zones")
             table.append(values)
-            recorder.relieve()
+            recorder.recorded()
     if not recorder.instants.total == recorder.nodes.total == recorder.zones.total:
         raise _ragged(checkpoint)
     if recorder.probes.fields:
@@ -163,7 +163,7 @@ def _replay_probes(checkpoint: Checkpoint, recorder: Recorder) -> None:
                 values[index, :, new] = array[:, old]
         recorder.probe_times.append(times[None, :])
         recorder.probes.append(values)
-        recorder.relieve()
+        recorder.recorded()
 
 
 def _lists(checkpoint: Checkpoint, paths: list[str], step: int) -> Iterator[list[np.ndarray]]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import html
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from hydro1d.errors import FileProblem, Hydro1dError
 from hydro1d.store.layout import Field
+from hydro1d.store.source import FileSource
 
 if TYPE_CHECKING:
     import xarray
@@ -212,3 +214,13 @@ class Run:
             for name, text in self._summary()
         )
         return f"<table><caption>hydro1d run</caption>{cells}</table>"
+
+
+def open_run(path: str | os.PathLike[str], kept: Callable[[str], np.ndarray | None] | None = None) -> Run:
+    """Open a result, a partial result (its status says `running`) or a checkpoint for reading.
+
+    Raises FileProblem: missing, not HDF5, not hydro1d's, truncated or damaged, of a newer schema version, or with links
+    to other files. Everything but the arrays is compared with its checksum here, each array when it is read.
+    kept: gives the arrays, by path, that the writer of the file still has in memory, None for others.
+    """
+    return Run(FileSource(path, kept=kept), Path(path))

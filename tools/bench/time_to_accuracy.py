@@ -24,12 +24,13 @@ from hydro1d.kernels.program import Program
 from hydro1d.loads.constant import Constant
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
+from hydro1d.solver.sink import Sink
 from hydro1d.viscosity import Viscosity
 
 PRESSURE = 4.5 * cases.FOAM["plateau_stress"]
 
 
-class Last(measure._Nowhere):
+class Last(Sink):
     """Keeps the last profile."""
 
     def profile(self, frame) -> None:
