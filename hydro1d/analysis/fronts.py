@@ -1,4 +1,4 @@
-"""Where the compaction fronts of a run were, from the measure in its history."""
+"""Paths and arrival times of compaction fronts, from the front positions in the history."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def crushed_zones(run: Run) -> np.ndarray:
     """Which zones belong to layers that are crushed at all, (zone,)."""
     crushed = np.ones(len(run["node_coordinate"]) - 1, dtype=bool)
     if "largest_strain" not in run or not len(run.time) or run["largest_strain"][-1].max() <= 0.0:
-        return crushed  # no profile tells
+        return crushed  # no profile shows which
     largest = run["largest_strain"][-1]
     for layer in run.layers:
         crushed[layer.zones] = largest[layer.zones].max() > MIN_CRUSHED * largest.max()

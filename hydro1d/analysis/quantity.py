@@ -1,4 +1,4 @@
-"""What can be taken from a run by name: ``peak_support_stress``, ``max(kinetic_energy)``, ``front_arrival(0.5 m)``.
+"""Quantities of a run by name: ``peak_support_stress``, ``max(kinetic_energy)``, ``front_arrival(0.5 m)``.
 
 A name is looked up, an argument is a column of the history or a length; nothing is evaluated.
 """

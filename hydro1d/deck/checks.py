@@ -88,7 +88,7 @@ def _sentence(error: BaseException) -> str:
 
 
 def _check_end(side: str, boundary: Boundary | None, layers: Sequence[Layer]) -> list[Finding]:
-    """A load that makes no sense on this end (a striker that flies away) says so before anything is computed."""
+    """Start the boundary once: a load that makes no sense on this end (a striker that flies away) is refused."""
     if boundary is None:
         return []
     sign, layer = (1.0, layers[0]) if side == "left" else (-1.0, layers[-1])

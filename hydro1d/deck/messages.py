@@ -75,7 +75,7 @@ def one_of(names: list[str], most: int = 20) -> str:
 
 
 def allowed(field: FieldInfo) -> str:
-    """What may stand in a field, as a phrase made of its unit, type and bounds."""
+    """Values that a field allows, as a phrase made of its unit, type and bounds."""
     extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
     words = _words(field.annotation)
     if "units" in extra:

@@ -65,7 +65,7 @@ class Deck(Component):
         found = cross_problems(self.layers, self.left, self.right, self.time, self.output)
         if found:
             raise deck_error(self.path, found)
-        # Frozen for everyone else: what the parts could not know without each other is filled in here.
+        # The model is frozen; only here are values filled in that follow from several parts.
         object.__setattr__(self, "output", self._resolved_output())
         object.__setattr__(self, "layers", tuple(self._named(index) for index in range(len(self.layers))))
         return self

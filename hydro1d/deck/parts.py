@@ -28,7 +28,7 @@ def plain_text(text: str) -> str:
 
 
 class Layer(Component):
-    """One layer of the column: a law, how thick, how many zones, how fast at t = 0."""
+    """One layer of the column: law, thickness, number of zones, velocity at t = 0."""
 
     law: Law
     thickness: float = positive("m", "thickness")
@@ -40,7 +40,7 @@ class Layer(Component):
 
 
 class Time(Component):
-    """How long to calculate, and how large the steps are."""
+    """End time and CFL number."""
 
     end: float = positive("s", "time at which the calculation ends")
     cfl: float = Field(
@@ -76,7 +76,7 @@ class Output(Component):
 
 
 class Checkpoint(Component):
-    """How often the state is saved: by cycles, by simulated time or by wall time; exactly one of them."""
+    """Interval between checkpoints: in cycles, simulated time or wall time, exactly one of them."""
 
     cycles: int | None = Field(
         None, ge=1, le=10**12, description="cycles between checkpoints, each taken at the next multiple of 32"

@@ -1,10 +1,10 @@
-"""A guess at forgotten units: plain numbers that are SI by rule and hardly by intent.
+"""Notes on units that may have been forgotten: plain numbers are SI, and some are implausible as such.
 
-A number with a unit is what its author says it is. A plain one is SI, and 0.8 for a stress of 0.8 MPa is easily written: it
-runs, and the result is nonsense. The bounds below are orders of magnitude away from what foams, metals and blasts have.
+A number with a unit is taken at its word. A plain one is SI, and 0.8 for a stress of 0.8 MPa is easily written: the deck runs,
+and the result is wrong by orders of magnitude. The bounds below lie far outside the values of foams, metals and blasts.
 
-Decks without dimensions, in which everything is of the order of one, are nobody's slip. They are known by their densities:
-only a deck with a material of `_LIGHTEST` or more, or with a solid too strong for its density, is looked at.
+Dimensionless decks, in which every number is of the order of one, are no mistake. Their densities tell them apart: only a deck
+with a density of at least `_LIGHTEST`, or with a solid too strong for its density, is examined.
 """
 
 from __future__ import annotations

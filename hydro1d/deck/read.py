@@ -76,7 +76,7 @@ def _syntax_problem(message: str, text: str) -> Problem:
 
 
 def _slip(row: str) -> str:
-    """A guess at what was meant by a row that is no TOML, or nothing."""
+    """Hint at the likely mistake in a line that is no TOML, or nothing."""
     if match := _COMMA.match(row):
         return f"; a number has a decimal point, {match[1]}.{match[2]}, and with a unit stands in quotes"
     if match := _BARE_UNIT.match(row):

@@ -1,4 +1,4 @@
-"""From the solver's frames and rows to tables, whatever becomes of these."""
+"""Recording: profiles, history rows and probes are copied into tables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables that grow row by row: filled in memory, cut into blocks, compressed by threads."""
+"""Tables that grow row by row in memory and are compressed in blocks."""
 
 from __future__ import annotations
 

@@ -29,13 +29,13 @@ class Source(Protocol):
     deck: dict[str, Any]
 
     def array(self, path: str) -> np.ndarray:
-        """Values, SI."""
+        """Values of a quantity, SI."""
 
     def forget(self) -> None:
-        """Keep no array that can be had again."""
+        """Keep no array that can be read again."""
 
     def describe(self, path: str) -> Field:
-        """Dimensions, unit, description."""
+        """Dimensions, unit and description of a quantity."""
 
 
 class RunLayer(NamedTuple):
@@ -54,7 +54,7 @@ class Quantities:
         self._arrays: dict[str, np.ndarray] = {}
 
     def keys(self) -> list[str]:
-        """Names of what there is."""
+        """Names of the group's quantities."""
         start = len(self._prefix)
         inside = [name[start:] for name in self._source.names if name.startswith(self._prefix)]
         return inside if self._prefix else [name for name in inside if "/" not in name]
@@ -181,7 +181,7 @@ class Run:
         return data, coordinates
 
     def close(self) -> None:
-        """Forget what was read or is in memory since it was written. The file is not held open between reads."""
+        """Give up the arrays in memory, read or kept since they were written. The file is not held open between reads."""
         self._source.forget()
         for group in (self._root, self.history, self.probes):
             group._arrays.clear()

@@ -11,7 +11,7 @@ _MAX_THREADS = 8
 
 
 class Job:
-    """One field of a block to be compressed: by a thread or, if none has begun with it, by who asks for the result."""
+    """Compression of one field of a block, by a thread or, if none has begun it, by the caller of `result`."""
 
     def __init__(self, work: Callable[[], list[bytes]], pool: ThreadPoolExecutor | None) -> None:
         self._work = work
@@ -30,7 +30,7 @@ class Job:
 
 
 class Workers:
-    """A pool that leaves one processor to the time loop; with one of ``threads``, or one processor, there is none."""
+    """A pool of ``threads`` (default: processors, at most 8) less the one of the time loop; None where that leaves no thread."""
 
     def __init__(self, threads: int | None) -> None:
         count = threads or min(threads_here(), _MAX_THREADS)

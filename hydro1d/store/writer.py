@@ -1,4 +1,4 @@
-"""Writing a run: what is recorded goes through one working file, whatever becomes of the run.
+"""Writing a run: all records go through one working file, whether the run completes, fails or is killed.
 
 Blocks stay in memory until there are too many of them or something is to be published; then those that are full are
 appended to a working file beside the output. A partial file or a checkpoint is a copy of the working file, completed; the
@@ -29,7 +29,7 @@ from hydro1d.store.recorder import Recorder
 from hydro1d.store.workers import Workers
 
 KEPT_CHECKPOINTS = 2
-_OVERHEAD = 10.0  # a partial file is written at most every so many times what the last one took
+_OVERHEAD = 10.0  # least time between partial files, over the time that the last one took
 
 
 class Hdf5Sink(Recorder):
@@ -124,7 +124,7 @@ class Hdf5Sink(Recorder):
 
     @property
     def partial_path(self) -> Path:
-        """Where a run that has not finished leaves what it has."""
+        """File of a run that has not finished."""
         return files.sibling(self.path, "partial")
 
     def publish_partial(self) -> None:
@@ -171,7 +171,7 @@ class Hdf5Sink(Recorder):
     # Inside ----------------------------------------------------------------------------------------------------------
 
     def _append(self, last: bool = False) -> files.Temporary:
-        """The working file with all full blocks, made if there is none; the `last` time blocks are left to `complete`."""
+        """The working file, created when first needed, with all full blocks; those of the `last` call `image.complete` writes."""
         from hydro1d.store import image  # h5py, which has been imported beside the loop
 
         if self._working is None:
