@@ -179,7 +179,7 @@ def _maxima(file: h5py.File, recorder: Recorder) -> list[str]:
     for item in known:
         array = recorder.zone_maxima[item.path]
         _checked(hdf5.new_array(file, item, array), array)
-        hdf5.attach_to(file, item)
+    hdf5.attach_scales(file, known)
     return [item.path for item in known]
 
 
