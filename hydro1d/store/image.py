@@ -24,9 +24,8 @@ from hydro1d.store.records import Block, Table
 from hydro1d.store.seal import make_seal
 
 CONVENTIONS = "CF-1.11"
-_STRUCTURE = (
-    8192  # bytes claimed for the structure of each dataset, attributes and index of chunks; it takes up to 3 kB
-)
+_STRUCTURE = 8192  # bytes claimed for the header and the attributes of a dataset, which take up to 3 kB
+_ENTRY = 64  # bytes claimed for a chunk in the index of its dataset, which takes up to 24
 _AUXILIARY = {"zone": "zone_coordinate zone_layer", "node": "node_coordinate", "layer": "layer_name"}
 
 _Pieces = list[tuple[Table, Block, list[list[bytes]]]]  # compressed chunks of each field of a block
@@ -93,10 +92,10 @@ def _chunks(block: Block) -> list[list[bytes]]:
 
 
 def _space(pieces: _Pieces, tables: list[Table]) -> int:
-    """Bytes to claim before the HDF5 library writes blocks."""
-    return _STRUCTURE * sum(len(table.fields) for table in tables) + sum(
-        len(chunk) + 64 for _, _, fields in pieces for chunks in fields for chunk in chunks
-    )
+    """Bytes to claim before the HDF5 library writes blocks; an index of chunks may be laid out anew, at twice its length."""
+    index = [len(table.first_columns()) * (table.total // table.rows + 1) * _ENTRY for table in tables]
+    structure = sum(len(table.fields) * (_STRUCTURE + size) for table, size in zip(tables, index, strict=True))
+    return structure + sum(len(chunk) for _, _, fields in pieces for chunks in fields for chunk in chunks)
 
 
 def _mark_written(tables: list[Table]) -> None:
