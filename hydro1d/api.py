@@ -27,14 +27,14 @@ class Share(float):
     cycles: int
 
     def __new__(cls, share: float, time: float, cycles: int) -> Share:
-        """A number that knows more."""
+        """share: between 0 and 1; time in s."""
         number = super().__new__(cls, share)
         number.time, number.cycles = float(time), int(cycles)
         return number
 
 
 def column_of(deck: Deck) -> Column:
-    """The column that a deck describes."""
+    """Column of zones, ends and output times of a deck."""
     return build_column(
         deck.layers,
         deck.left,

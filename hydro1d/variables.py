@@ -6,8 +6,6 @@ from typing import NamedTuple
 
 from hydro1d.scheme import outputs
 
-HERALD = 1e-9  # of the largest stress: less on a support is the numerical herald of a wave that has not arrived
-
 
 class Variable(NamedTuple):
     """Name, SI unit and description of a stored quantity."""

@@ -29,6 +29,7 @@ from hydro1d.loads.constant import Constant
 from hydro1d.scheme.viscosity import Viscosity
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
+from hydro1d.solver.sink import Sink
 
 FOAM = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
 PLATEAU = FOAM["plateau_stress"]
@@ -70,7 +71,7 @@ def trilinear(ratio: float) -> tuple:
     return Trilinear(**foam, locking_modulus=ratio * PLATEAU), analytic.Trilinear(*foam.values(), ratio * PLATEAU)
 
 
-class Profiles:
+class Profiles(Sink):
     """Keeps the profiles."""
 
     def __init__(self) -> None:
@@ -83,15 +84,6 @@ class Profiles:
     def history(self, rows, probes) -> None:
         """The last row."""
         self.row = rows[-1]
-
-    def flush(self) -> None:
-        """Nothing."""
-
-    def checkpoint(self, state) -> None:
-        """Nothing."""
-
-    def maxima(self, zone_maxima) -> None:
-        """Nothing."""
 
 
 def run(law, exact, boundary, viscosity: Viscosity, zones: int = 1000, cfl: float = 0.8) -> dict:

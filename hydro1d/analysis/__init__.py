@@ -1,1 +1,1 @@
-"""What a run says: transmission, fronts, arrival, openings, energy, quantities, outcomes."""
+"""Results of a run: transmission, fronts, arrival, openings, energy, quantities, outcomes."""

@@ -1,4 +1,4 @@
-"""How long waves need to the support, estimated from a deck alone: is the end time late enough for an answer?"""
+"""Arrival times of waves at the support, estimated from a deck alone, to compare with its end time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from hydro1d.deck import Deck
     from hydro1d.laws.base import Law
 
-STEPS = 60  # of a bisection
+BISECTIONS = 60
 
 
 class Arrival(NamedTuple):
@@ -77,11 +77,11 @@ def front_speed(foam: Foam, pressure: float, velocity: float) -> float:
 
     if low >= 1.0 or reaches(low):
         return math.nan
-    for _ in range(STEPS):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
         try:
             low, high = (low, middle) if reaches(middle) else (middle, high)
-        except ArithmeticError:  # so near to full strain the curve is beyond all numbers
+        except ArithmeticError:  # near full strain the stress overflows
             high = middle
     if high == 1.0:  # no state of this curve bears such a load
         return math.nan

@@ -1,4 +1,4 @@
-"""The part of the internal energy that unloading gives back."""
+"""Elastic energy: the part of the internal energy that unloading recovers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the compaction fronts of a run were, from the measure in its history."""
+"""Paths and arrival times of compaction fronts, from the front positions in the history."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import numpy as np
 if TYPE_CHECKING:
     from hydro1d.store import Run
 
-FRONTS = {"front_position": 1.0, "distal_front_position": -1.0}  # which way each runs
-STRAYS = 0.01  # of the column: a measure that goes back or leaps so far is none of the front
-WAVERS = 3.0  # zones; less than that it wavers
-LEAST_CRUSHED = 0.05  # of the largest strain anywhere: a layer with less is not crushed
+FRONTS = {"front_position": 1.0, "distal_front_position": -1.0}  # direction in which each front runs
+MAX_DEVIATION = 0.01  # share of the column's length; a measure that goes back or leaps farther has lost the front
+MAX_DEVIATION_ZONES = 3.0  # zones; the same bound on a coarse grid, where the measure wavers by a zone or two
+MIN_CRUSHED = 0.05  # share of the largest strain anywhere; a layer with less is not crushed
 
 
 def front_path(run: Run, name: str) -> np.ndarray:
@@ -22,7 +22,7 @@ def front_path(run: Run, name: str) -> np.ndarray:
     starts at an interface, it wavers by a zone or two, or strays; here the front waits until the measure has come past it.
     """
     nodes, time, sign = run["node_coordinate"], run.history["time"], FRONTS[name]
-    strays = max(STRAYS * (nodes[-1] - nodes[0]), WAVERS * float(np.diff(nodes).max()))
+    strays = max(MAX_DEVIATION * (nodes[-1] - nodes[0]), MAX_DEVIATION_ZONES * float(np.diff(nodes).max()))
     where = np.where(_is_possible(run, run.history[name], sign), run.history[name], np.nan)
     farthest = sign * np.fmax.accumulate(sign * where)
     where = np.where(np.abs(farthest - where) <= strays, farthest, np.nan)
@@ -44,17 +44,18 @@ def _is_possible(run: Run, where: np.ndarray, sign: float) -> np.ndarray:
     zone = np.clip(np.searchsorted(nodes, place, side="left") - 1, 0, len(crushed) - 1)
     behind = np.interp(place, nodes, passed)
     behind = behind if sign > 0.0 else passed[-1] - behind
-    return inside & crushed[zone] & (behind <= (1.0 + 2.0 * STRAYS - run.history["uncrushed_fraction"]) * nodes[-1])
+    passable = (1.0 + 2.0 * MAX_DEVIATION - run.history["uncrushed_fraction"]) * nodes[-1]
+    return inside & crushed[zone] & (behind <= passable)
 
 
 def crushed_zones(run: Run) -> np.ndarray:
     """Which zones belong to layers that are crushed at all, (zone,)."""
     crushed = np.ones(len(run["node_coordinate"]) - 1, dtype=bool)
     if "largest_strain" not in run or not len(run.time) or run["largest_strain"][-1].max() <= 0.0:
-        return crushed  # no profile tells
+        return crushed  # no profile shows which
     largest = run["largest_strain"][-1]
     for layer in run.layers:
-        crushed[layer.zones] = largest[layer.zones].max() > LEAST_CRUSHED * largest.max()
+        crushed[layer.zones] = largest[layer.zones].max() > MIN_CRUSHED * largest.max()
     return crushed
 
 

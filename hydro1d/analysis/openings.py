@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from hydro1d.laws.base import Law
     from hydro1d.store import Run
 
-LEAST = 1e-3  # of strain: a zone that parted by less only rings
-MOST_VALUES = 20_000_000  # of one quantity; the summary of a run looks at no more
+MIN_OPENING = 1e-3  # strain; a zone that opened by less only oscillates
+MAX_VALUES = 20_000_000  # values of one profile quantity; the summary of a longer run leaves openings out
 
 
 class Openings(NamedTuple):
@@ -34,19 +34,19 @@ class Openings(NamedTuple):
 
     @property
     def outcome(self) -> str:
-        """What became of them, in words."""
+        """Whether the opened zones are closed at the last profile, in words."""
         return "all closed again at the end" if self.still == 0 else f"{self.still} still open at the end"
 
 
 def find_openings(run: Run, deck: Deck | None = None) -> Openings | None:
-    """Zones at zero stress after they were loaded, opened by a strain of LEAST at least; None if there are none.
+    """Zones at zero stress after they were loaded, opened by a strain of MIN_OPENING at least; None if there are none.
 
     deck: gives the laws and with them the strain at which a zone closes; without, every zone at zero stress counts.
     """
     stress, strain, largest = run["stress"], run["strain"], run["largest_strain"]
     is_open = (stress <= 0.0) & (largest > 0.0) & _bears_no_tension(run)
     if deck is not None and is_open.any():
-        is_open &= _closing_strain(run, deck, strain, is_open) - strain >= LEAST
+        is_open &= _closing_strain(run, deck, strain, is_open) - strain >= MIN_OPENING
     zones = np.flatnonzero(is_open.any(axis=0))
     if not len(zones):
         return None

@@ -1,5 +1,4 @@
-"""Yes/no outcomes of a run by name: ``enhanced``, ``fully_crushed``, ``separated``, ``support_peak "
-"> 2 MPa``."""
+"""Yes/no outcomes of a run by name: ``enhanced``, ``fully_crushed``, ``separated``, ``support_peak > 2 MPa``."""
 
 from __future__ import annotations
 
@@ -48,7 +47,7 @@ class Outcome(NamedTuple):
         return self.holds(self.quantity.take(run, deck))
 
     def settled(self, deck: Deck) -> Callable[[Mapping[str, float]], bool] | None:
-        """A look at a row of the history that says "yes, whatever comes"; None for what can be taken back.
+        """Test of a history row that is true once the outcome can no longer change to no; None if it always can.
 
         Peaks only grow, and a zone once crushed stays crushed, so these can end a run early and not change its answer.
         """

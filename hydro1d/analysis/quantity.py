@@ -1,4 +1,4 @@
-"""What can be taken from a run by name: ``peak_support_stress``, ``max(kinetic_energy)``, ``front_arrival(0.5 m)``.
+"""Quantities of a run by name: ``peak_support_stress``, ``max(kinetic_energy)``, ``front_arrival(0.5 m)``.
 
 A name is looked up, an argument is a column of the history or a length; nothing is evaluated.
 """
@@ -14,7 +14,8 @@ import numpy as np
 
 from hydro1d.analysis.energy import elastic_energy
 from hydro1d.analysis.fronts import front_arrival
-from hydro1d.analysis.transmission import ends_of, felt_on
+from hydro1d.analysis.transmission import ends_of, transmitted_stress
+from hydro1d.components.plugins import builtin_names, find
 from hydro1d.components.units import UnitError, convert, is_number
 from hydro1d.deck import Deck
 from hydro1d.deck.messages import one_of, suggestion
@@ -22,11 +23,6 @@ from hydro1d.store import Run
 from hydro1d.variables import HISTORY
 
 _CALL = re.compile(r"\s*([A-Za-z_]\w*)\s*(?:\(\s*([^()]*?)\s*\))?\s*")
-_BOUNDARY_COLUMNS = {
-    f"{side}_striker_{name}": units
-    for side in ("left", "right")
-    for name, units in (("position", "m"), ("velocity", "m s-1"))
-}
 
 
 class Quantity(NamedTuple):
@@ -66,7 +62,7 @@ def quantity_names() -> list[str]:
 
 
 def support_side(deck: Deck) -> str:
-    """The end away from the load."""
+    """`left` or `right`: the end away from the load."""
     return ends_of(deck).support
 
 
@@ -85,8 +81,8 @@ def _peak_support(run: Run, deck: Deck) -> float:
 
 def _enhancement(run: Run, deck: Deck) -> float:
     applied = applied_peak(deck)
-    felt = felt_on(run, support_side(deck), applied)
-    return felt / applied if applied > 0.0 and felt > 0.0 else float("nan")
+    transmitted = transmitted_stress(run, support_side(deck), applied)
+    return transmitted / applied if applied > 0.0 and transmitted > 0.0 else float("nan")
 
 
 def _crushed_time(run: Run, deck: Deck) -> float:
@@ -209,7 +205,7 @@ def _any(values: np.ndarray) -> bool:
 
 
 def _reduction(name: str, column: str) -> Quantity:
-    units = {variable.name: variable.units for variable in HISTORY} | _BOUNDARY_COLUMNS
+    units = {variable.name: variable.units for variable in HISTORY} | _boundary_columns()
     if column not in units:
         known = [*units]
         raise ValueError(
@@ -224,6 +220,12 @@ def _reduction(name: str, column: str) -> Quantity:
         return reduce(np.asarray(run.history["time"]), np.asarray(run.history[column]))
 
     return Quantity(f"{name}({column})", unit, f"{label} {column.replace('_', ' ')}", take)
+
+
+def _boundary_columns() -> dict[str, str]:
+    """Columns that hydro1d's own boundaries add to the history, with their SI units."""
+    kept = [getattr(find("boundary", name), "memory", {}) for name in builtin_names("boundary")]
+    return {f"{side}_{name}": units for side in ("left", "right") for own in kept for name, units in own.items()}
 
 
 def _arrival(name: str, argument: str) -> Quantity:

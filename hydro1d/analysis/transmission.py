@@ -1,4 +1,4 @@
-"""What a run says of its load: does the support feel more than was applied, and is that decided by the end of the run?"""
+"""Transmission: the peak stress on the support over the peak of the applied pressure, and whether the run decides it."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ import numpy as np
 from hydro1d.analysis.fronts import FRONTS
 from hydro1d.components.plugins import builtin_names, find
 from hydro1d.loads.base import Pulse
-from hydro1d.variables import HERALD
 
 if TYPE_CHECKING:
     from hydro1d.boundaries.base import Boundary
     from hydro1d.deck import Deck
     from hydro1d.store import Run
 
-ACTS = 0.01  # of its peak: a smaller pressure is over
-LATELY = 0.02  # of the time calculated, at the end: what changes there is still going on
-RISES = 1e-3  # of the peak on the support, lately
-FAINT = 1e-2  # of the applied or, without one, the largest stress: a peak on the support that is less and still rises is a herald
-RUNS = 1e-3  # of the column's length, lately: a front that runs
+MIN_PRESSURE = 0.01  # share of the peak pressure; a pulse below it has ended
+LAST_SHARE = 0.02  # share of the time calculated; a quantity that changes in this last part is still changing
+MIN_RISE = 1e-3  # rise of the peak on the support in the last part, over the peak
+PRECURSOR = 1e-9  # stress over the applied (or the largest) stress; a peak below it is only the wave's precursor
+MAX_PRECURSOR = 1e-2  # stress over the applied (or the largest) stress; a peak below it that still rises is a precursor
+MIN_ADVANCE = 1e-3  # advance of a front in the last part, over the column's length; a front below it stands
 NOT_REACHED = "the wave has not reached the support; attenuated or enhanced is not decided yet"
 
 
@@ -33,22 +33,22 @@ class Ends(NamedTuple):
     by_pressure: bool
 
 
-class Verdict(NamedTuple):
-    """What a run says of its load; pressures in Pa.
+class Transmission(NamedTuple):
+    """Peak stresses in Pa on the two ends of a run's column.
 
-    applied: peak of the pressure, 0 unless one end alone is loaded by one; felt: peak on the support, 0 as long as no
-    wave has arrived there; pending: what is still going on at the end of the run, in words.
+    applied: peak of the applied pressure, 0 unless exactly one end is loaded by a pressure; transmitted: peak stress on the
+    support, 0 before a wave has arrived there; pending: processes that the end of the run cuts off, in words.
     """
 
     ends: Ends
     applied: float
-    felt: float
+    transmitted: float
     pending: tuple[str, ...]
 
     @property
     def ratio(self) -> float:
-        """Felt over applied; NaN where it has no meaning."""
-        return self.felt / self.applied if self.applied > 0.0 and self.felt > 0.0 else float("nan")
+        """transmitted / applied; NaN where either is 0."""
+        return self.transmitted / self.applied if self.applied > 0.0 and self.transmitted > 0.0 else float("nan")
 
     @property
     def word(self) -> str:
@@ -58,35 +58,35 @@ class Verdict(NamedTuple):
         return "attenuated so far" if self.pending else "attenuated"
 
 
-def verdict_of(run: Run, deck: Deck | None = None) -> Verdict:
-    """The verdict on a run that holds a history. deck: needed only for pulses of the user's own."""
+def transmission_of(run: Run, deck: Deck | None = None) -> Transmission:
+    """Transmission of a run that holds a history. deck: needed only for a user's own pulses."""
     ends = ends_of(deck) if deck is not None else ends_of_data(run.deck)
     applied = float(run.attributes.get("peak_applied_pressure") or 0.0) if ends.by_pressure else 0.0
-    felt = felt_on(run, ends.support, applied)
-    return Verdict(ends, applied, felt, tuple(_pending(run, deck, ends, felt > 0.0)))
+    transmitted = transmitted_stress(run, ends.support, applied)
+    return Transmission(ends, applied, transmitted, tuple(_pending(run, deck, ends, transmitted > 0.0)))
 
 
-def felt_on(run: Run, side: str, applied: float) -> float:
-    """Peak stress (Pa) on an end; 0 as long as it is only the numerical herald of a wave that has not arrived.
+def transmitted_stress(run: Run, side: str, applied: float) -> float:
+    """Peak stress (Pa) on an end; 0 while it is only the numerical precursor of a wave that has not arrived.
 
-    A herald runs ahead of its wave by a few zones; it is faint and grows until the wave is there. Faint is measured by the
-    ``applied`` pressure, if any: masses without viscosity collide with thousands of times as much.
+    The precursor runs a few zones ahead of its wave and grows until the wave arrives. It is compared with the ``applied``
+    pressure (Pa) if there is one, since the largest stress between masses without viscosity is thousands of times that.
     """
-    felt, most = (float(run.history[name][-1]) for name in (f"peak_{side}_stress", "peak_stress"))
-    most = min(most, applied) if applied > 0.0 else most
-    is_herald = felt <= HERALD * most or (felt < FAINT * most and _rises(run, side))
-    return 0.0 if is_herald else felt
+    peak, largest = (float(run.history[name][-1]) for name in (f"peak_{side}_stress", "peak_stress"))
+    scale = min(largest, applied) if applied > 0.0 else largest
+    is_precursor = peak <= PRECURSOR * scale or (peak < MAX_PRECURSOR * scale and _rises(run, side))
+    return 0.0 if is_precursor else peak
 
 
 def _rises(run: Run, side: str) -> bool:
     peak = run.history[f"peak_{side}_stress"]
-    return bool(peak[-1] > (1.0 + RISES) * peak[_lately(run)])
+    return bool(peak[-1] > (1.0 + MIN_RISE) * peak[_lately(run)])
 
 
 def _lately(run: Run) -> int:
     """The row of the history with which the last stretch of the run begins."""
     time = run.history["time"]
-    return max(int(np.searchsorted(time, (1.0 - LATELY) * time[-1], side="right")) - 1, 0)
+    return max(int(np.searchsorted(time, (1.0 - LAST_SHARE) * time[-1], side="right")) - 1, 0)
 
 
 def ends_of(deck: Deck) -> Ends:
@@ -98,7 +98,7 @@ def ends_of(deck: Deck) -> Ends:
 
 
 def ends_of_data(data: Mapping[str, Any]) -> Ends:
-    """The same from a deck as plain data, for results whose deck names code of its user that is not to be run."""
+    """Ends by a resolved deck as plain data, for results whose deck names user code that must not be run."""
     ends = {side: data.get(side, {}) for side in ("left", "right")}
     return _ends(
         {side: bool(end.get("pulse")) for side, end in ends.items()},
@@ -118,7 +118,7 @@ def _ends(pushed: Mapping[str, bool], moved: Mapping[str, bool]) -> Ends:
 
 
 def pulse_of(run: Run, side: str) -> Pulse | None:
-    """The pulse on an end of a result's column, whatever the laws are; None where there is none of hydro1d's own."""
+    """Pulse on an end of a result's column, built from the stored deck; None without one or for a user's own pulse."""
     data = run.deck.get(side, {})
     if data.get("pulse") not in builtin_names("pulse"):
         return None
@@ -135,11 +135,11 @@ def _boundaries(deck: Deck) -> dict[str, Boundary]:
 
 
 def _pending(run: Run, deck: Deck | None, ends: Ends, arrived: bool) -> list[str]:
-    """What has not come to its end with the run."""
+    """Processes that still go on at the end of the run, in words."""
     end = float(run.history["time"][-1])
     found = []
     pulse = getattr(_boundaries(deck)[ends.loaded], "pulse", None) if deck is not None else pulse_of(run, ends.loaded)
-    if pulse is not None and abs(pulse.pressure(end)) > ACTS * pulse.peak_pressure():
+    if pulse is not None and abs(pulse.pressure(end)) > MIN_PRESSURE * pulse.peak_pressure():
         found.append("the pressure still acts")
     if arrived and _rises(run, ends.support):
         found.append("the peak on the support still rises")
@@ -152,4 +152,4 @@ def _is_crushing(run: Run) -> bool:
     """Whether a compaction front has moved on lately."""
     history, nodes, lately = run.history, run["node_coordinate"], _lately(run)
     moved = [sign * (history[name][-1] - history[name][lately]) for name, sign in FRONTS.items() if name in history]
-    return any(distance > RUNS * (nodes[-1] - nodes[0]) for distance in moved)
+    return any(distance > MIN_ADVANCE * (nodes[-1] - nodes[0]) for distance in moved)

@@ -13,6 +13,7 @@ from hydro1d.benchmarks import cases, reference
 from hydro1d.benchmarks.baseline import Baseline
 from hydro1d.solver.driver import solve
 from hydro1d.solver.program import Program
+from hydro1d.solver.sink import Sink
 from hydro1d.solver.state import State
 
 AGREEMENT = 1e-10  # of the two answers, or nothing is timed; beyond 10 000 zones the round-off of their strains is more
@@ -136,28 +137,9 @@ def output_cost(zones: int, repetitions: int) -> dict[str, float]:
     least = dict.fromkeys(variants, float("inf"))
     for _ in range(repetitions):
         for name, column in variants.items():
-            outcome = solve(column, _Nowhere(), program=programs[name])
+            outcome = solve(column, Sink(), program=programs[name])
             least[name] = min(least[name], outcome.wall_seconds)
     return {name: seconds / least["none"] for name, seconds in least.items() if name != "none"}
-
-
-class _Nowhere:
-    """A sink that keeps nothing."""
-
-    def profile(self, frame: object) -> None:
-        """Not kept."""
-
-    def history(self, rows: object, probes: object) -> None:
-        """Not kept."""
-
-    def flush(self) -> None:
-        """Nothing to write."""
-
-    def checkpoint(self, state: object) -> None:
-        """Not kept."""
-
-    def maxima(self, zone_maxima: object) -> None:
-        """Not kept."""
 
 
 def linearity(largest: float, repetitions: int) -> list[dict[str, float]]:

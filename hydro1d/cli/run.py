@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from hydro1d.analysis.openings import Openings
-    from hydro1d.analysis.transmission import Verdict
+    from hydro1d.analysis.transmission import Transmission
     from hydro1d.deck import Deck
     from hydro1d.store import Run
 
@@ -49,9 +49,9 @@ def run(args: argparse.Namespace) -> None:
         print(f"note: {note}", flush=True)  # before the calculation, which may be long and for nothing
     result = (_calculate if args.log_json is None else _logged)(args, deck, output)
     if told:
-        from hydro1d.analysis.openings import MOST_VALUES, find_openings
+        from hydro1d.analysis.openings import MAX_VALUES, find_openings
 
-        few = len(result.time) * len(result["zone"]) <= MOST_VALUES  # else reading them back would take long
+        few = len(result.time) * len(result["zone"]) <= MAX_VALUES  # else reading them back would take long
         print("\n".join(summary(deck, result, output, find_openings(result, deck) if few else None)))
 
 
@@ -107,17 +107,18 @@ def _logged(args: argparse.Namespace, deck: Deck, output: Path) -> Run:
 
 def summary(deck: Deck, result: Run, output: Path, opened: Openings | None = None) -> list[str]:
     """Lines that answer first what a user runs the code for: is the load enhanced, is the column crushed."""
-    from hydro1d.analysis.transmission import verdict_of
+    from hydro1d.analysis.transmission import transmission_of
 
-    history, verdict = result.history, verdict_of(result, deck)
+    history, transmission = result.history, transmission_of(result, deck)
     end = _common.figure(float(history["time"][-1]), "s")
     lines = [f"{result.title}"] if result.title else []
-    lines.append(_loads(verdict, history["peak_left_stress"][-1], history["peak_right_stress"][-1]))
+    lines.append(_loads(transmission, history["peak_left_stress"][-1], history["peak_right_stress"][-1]))
     uncrushed = float(history["uncrushed_fraction"][-1])
     if uncrushed == uncrushed:
         lines.append("column: fully crushed" if uncrushed <= 0.0 else f"column: {100 * uncrushed:.4g} % is not crushed")
-    if verdict.pending:
-        lines.append(f"not over at t = {end}: {' and '.join(verdict.pending)}; a later time.end may change the answers")
+    if transmission.pending:
+        pending = " and ".join(transmission.pending)
+        lines.append(f"not over at t = {end}: {pending}; a later time.end may change the answers")
     if opened is not None:
         lines.append(_openings(opened))
     cycles, wall = int(result.attributes["cycles"]), float(result.attributes["wall_seconds"])
@@ -141,18 +142,19 @@ def _openings(opened: Openings) -> str:
     return text
 
 
-def _loads(verdict: Verdict, left: float, right: float) -> str:
+def _loads(transmission: Transmission, left: float, right: float) -> str:
     """Peak support stress over the peak of the applied pressure, where there is a pressure on one end."""
     from hydro1d.analysis.transmission import NOT_REACHED
 
-    if verdict.felt == 0.0 and verdict.applied > 0.0:
-        return f"support stress: {NOT_REACHED} (applied peak {_common.figure(verdict.applied, 'Pa')})"
-    if verdict.applied == 0.0:
-        late = f"; no wave has reached the {verdict.ends.support} end yet" if verdict.felt == 0.0 else ""
-        peaks = {"left": left, "right": right, **({verdict.ends.support: 0.0} if late else {})}
-        felt = ", ".join(f"{side} {_common.figure(peak, 'Pa')}" for side, peak in peaks.items())
-        return f"peak stress on the ends: {felt}{late}"
+    ends, applied, transmitted, _ = transmission
+    if transmitted == 0.0 and applied > 0.0:
+        return f"support stress: {NOT_REACHED} (applied peak {_common.figure(applied, 'Pa')})"
+    if applied == 0.0:
+        late = f"; no wave has reached the {ends.support} end yet" if transmitted == 0.0 else ""
+        peaks = {"left": left, "right": right, **({ends.support: 0.0} if late else {})}
+        shown = ", ".join(f"{side} {_common.figure(peak, 'Pa')}" for side, peak in peaks.items())
+        return f"peak stress on the ends: {shown}{late}"
     return (
-        f"support stress: {verdict.word}, {verdict.ratio:.4g} times the applied peak "
-        f"({_common.figure(verdict.felt, 'Pa')} over {_common.figure(verdict.applied, 'Pa')})"
+        f"support stress: {transmission.word}, {transmission.ratio:.4g} times the applied peak "
+        f"({_common.figure(transmitted, 'Pa')} over {_common.figure(applied, 'Pa')})"
     )

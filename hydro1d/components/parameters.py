@@ -18,7 +18,7 @@ from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, model_validator
 
-from hydro1d.components.units import to_si
+from hydro1d.components.fields import to_si
 
 
 def _parameter(unit: str, description: str, default: Any, **bounds: float) -> Any:

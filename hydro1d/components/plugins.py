@@ -36,7 +36,7 @@ class UnknownPlugin(ValueError):
 def find(kind: str, spec: str, folder: Path | None = None) -> type[Component]:
     """Return the class that ``spec`` names; a relative file is looked up in ``folder`` (the deck's).
 
-    Raises UnknownPlugin for a name that nobody provides and ValueError, in one sentence, for a file that cannot be used.
+    Raises UnknownPlugin for a name that is not installed and ValueError, in one sentence, for a file that cannot be used.
     """
     if ".py" in spec:
         return _from_file(kind, spec, folder or Path.cwd())

@@ -12,8 +12,8 @@ from typing import Any
 from hydro1d.components.unit_table import ATOMS
 from hydro1d.components.units import UnitError, convert, parse_unit, shorten
 
-LARGEST_FILE = 64 * 1024**2  # bytes
-LONGEST_TABLE = 1_000_000  # rows
+MAX_FILE_BYTES = 64 * 1024**2  # bytes
+MAX_ROWS = 1_000_000  # rows
 
 Table = tuple[tuple[float, float], ...]
 
@@ -46,8 +46,8 @@ def read_table(value: Any, units: tuple[str, str], folder: Path) -> Table:
         value = value.tolist()
     if not isinstance(value, Sequence) or not value:
         raise TableError(f"{shorten(value)} is no list of pairs, [[0, 0], [1, 2]], nor the name of a CSV file")
-    if len(value) > LONGEST_TABLE:
-        raise TableError(f"the table has {len(value)} rows; {LONGEST_TABLE} are possible")
+    if len(value) > MAX_ROWS:
+        raise TableError(f"the table has {len(value)} rows; {MAX_ROWS} are possible")
     rows = []
     for number, row in enumerate(value, 1):
         if isinstance(row, str) or not isinstance(row, Sequence) or len(row) != 2:
@@ -95,8 +95,8 @@ def read_rows(
             rows.append((place, _pair(texts, units, place)))
         except TableError as error:
             raise TableError(f"{error}{'' if rows else _ABOVE}") from None
-        if len(rows) > LONGEST_TABLE:
-            raise TableError(f"{name} has more than {LONGEST_TABLE} rows")
+        if len(rows) > MAX_ROWS:
+            raise TableError(f"{name} has more than {MAX_ROWS} rows")
     if not rows:
         raise TableError(f"{name} has no row of numbers")
     return rows, given
@@ -147,8 +147,8 @@ def _lines(name: str, folder: Path) -> list[str]:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):
             raise TableError(f"{name} is not a file")
-        if status.st_size > LARGEST_FILE:
-            raise TableError(f"{name} is larger than {LARGEST_FILE // 1024**2} MB")
+        if status.st_size > MAX_FILE_BYTES:
+            raise TableError(f"{name} is larger than {MAX_FILE_BYTES // 1024**2} MB")
         return _text(path.read_bytes(), name).splitlines()
     except OSError as error:
         raise TableError(f"the file {name[:200]} cannot be read: {error.strerror or error}") from None

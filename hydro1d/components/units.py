@@ -12,16 +12,11 @@ import math
 import numbers
 import re
 from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
+from typing import Any
 
 from hydro1d.components.unit_table import ATOMS, KINDS, NUMBER, Dimension, Unit
 
-if TYPE_CHECKING:
-    from pydantic import BaseModel
-    from pydantic.fields import FieldInfo
-
-LONGEST_TEXT = 100  # characters of a number with its unit
+MAX_TEXT = 100  # characters of a number with its unit
 
 
 class UnitError(ValueError):
@@ -84,7 +79,7 @@ def parse_unit(text: str, only_common: bool = False) -> Unit:
 
     With ``only_common`` pint is not asked.
     """
-    if len(text) > LONGEST_TEXT:
+    if len(text) > MAX_TEXT:
         raise UnitError(f"{shorten(text)} is not a unit")
     plain = text.replace("**", "^").replace("·", "*").replace("⋅", "*").replace("−", "-")
     plain = plain.replace("µ", "u").replace("μ", "u").translate(_SUPERSCRIPTS)
@@ -108,7 +103,7 @@ def parse_unit(text: str, only_common: bool = False) -> Unit:
 
 def _convert_text(text: str, unit: str) -> float:
     quoted = shorten(text)
-    if len(text) > LONGEST_TEXT:
+    if len(text) > MAX_TEXT:
         raise UnitError(f"{quoted} is too long for a number with a unit")
     body = text.strip().replace("−", "-")
     if comma := _COMMA.match(body):
@@ -144,7 +139,7 @@ def _scaled(number: re.Match[str], numerator: int, denominator: int, quoted: str
     power = int(exponent or 0) - len(decimals)
     if digits == 0:
         return 0.0
-    if abs(power) > 500:  # keeps the integers below short; the text is at most LONGEST_TEXT characters
+    if abs(power) > 500:  # keeps the integers below short; the text is at most MAX_TEXT characters
         raise UnitError(f"{quoted} is too {'large' if power > 0 else 'small'} for a floating-point number")
     try:
         size = digits * numerator * 10 ** max(power, 0) / (denominator * 10 ** max(-power, 0))
@@ -190,104 +185,6 @@ def _suggest(name: str) -> str:
 
     same = [known for known in ATOMS if known.lower() == name.lower()] or get_close_matches(name, ATOMS, 1)
     return f"; did you mean {' or '.join(same)}?" if same else ""
-
-
-# --- the fields of a component ------------------------------------------------------------------------------------
-
-
-class _Refused:
-    """Stands for a value already found wrong while the other fields are checked, so that all errors come at once."""
-
-
-def to_si(cls: type[BaseModel], values: Any, context: Any = None) -> Any:
-    """Return ``values``, the raw fields of the component ``cls``, with every quantity in SI and every table read.
-
-    ``context`` may hold ``{"folder": Path}``, which relative CSV files start from. A field declared ``bool`` or
-    ``int`` takes no text and a number no bool. Raises pydantic's ValidationError with all errors of all fields.
-    """
-    if not isinstance(values, Mapping):
-        return values
-    folder = Path((context or {}).get("folder") or ".")
-    converted, refused = dict(values), {}
-    for name, field in cls.model_fields.items():
-        if name not in values or isinstance(values[name], _Refused):
-            continue
-        try:
-            converted[name] = field_to_si(field, values[name], folder)
-        except UnitError as error:
-            converted[name], refused[name] = _Refused(), str(error)
-    if refused:
-        raise _all_errors(cls, values, converted, refused, context)
-    return converted
-
-
-def field_to_si(field: FieldInfo, value: Any, folder: Path) -> Any:
-    """Return one field's value in SI; the field's `json_schema_extra` gives its unit or the units of its columns."""
-    extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-    kinds = _kinds(field.annotation)
-    if (isinstance(value, str) and value in kinds) or (value is None and type(None) in kinds):
-        return value
-    if "units" in extra:
-        from hydro1d.components.tables import OrderError, read_table
-
-        first, second = extra["units"]  # type: ignore
-        try:
-            return read_table(value, (str(first), str(second)), folder)
-        except OrderError as error:
-            raise OrderError(f"{error}{extra.get('advice', '')}") from None
-    if "unit" in extra or float in kinds:
-        if isinstance(value, str) and "unit" not in extra and any(isinstance(kind, str) for kind in kinds):
-            return value  # neither a declared unit nor one of its words: the field's own validator knows
-        if int in kinds and isinstance(value, int) and not isinstance(value, bool):
-            return value  # "a count, or a quantity"
-        unit = str(extra.get("unit", "1"))
-        branches = (field.annotation, *get_args(field.annotation))
-        if isinstance(value, list | tuple) and any(get_origin(branch) is tuple for branch in branches):
-            return tuple(convert(item, unit) for item in value)
-        return convert(value, unit)
-    if bool in kinds and not isinstance(value, bool):
-        raise UnitError(f"{shorten(value)} is not true or false")
-    if int in kinds and (isinstance(value, bool) or not isinstance(value, numbers.Integral)):
-        raise UnitError(f"{shorten(value)} is not an integer")
-    return value
-
-
-def _kinds(annotation: Any) -> set[Any]:
-    """The plain types and the Literal texts inside an annotation such as ``float | Literal["rigid"]``."""
-    origin = get_origin(annotation)
-    if origin is Literal:
-        return set(get_args(annotation))
-    if origin is not None:
-        return {kind for part in get_args(annotation) for kind in _kinds(part)}
-    return {annotation} if isinstance(annotation, type) else set()
-
-
-def _all_errors(
-    cls: type[BaseModel], values: Mapping[str, Any], converted: dict[str, Any], refused: dict[str, str], context: Any
-) -> Exception:
-    """One ValidationError with the refused values and whatever pydantic finds in the other fields."""
-    from pydantic import ValidationError
-    from pydantic_core import InitErrorDetails, PydanticCustomError
-
-    errors = [
-        InitErrorDetails(
-            type=PydanticCustomError("quantity", "{text}", {"text": text}), loc=(name,), input=values[name]
-        )
-        for name, text in refused.items()
-    ]
-    try:
-        cls.model_validate(converted, context=context)
-    except ValidationError as others:
-        errors += [
-            InitErrorDetails(
-                type=PydanticCustomError("field", "{text}", {"text": error["msg"], "type": error["type"]}),
-                loc=error["loc"],
-                input=error["input"],
-            )
-            for error in others.errors()
-            if not error["loc"] or error["loc"][0] not in refused
-        ]
-    return ValidationError.from_exception_data(cls.__name__, errors)
 
 
 def is_number(text: str) -> bool:

@@ -1,7 +1,8 @@
-"""The deck: what a run is told. `load_deck` reads one, `Deck` builds one in Python, with the same checks."""
+"""The deck, the input of a run. `load_deck` reads one, `Deck` builds one in Python, with the same checks."""
 
 from hydro1d.deck.load import load_deck
-from hydro1d.deck.model import MOST_ZONES, Checkpoint, Deck, Layer, Output, Time
+from hydro1d.deck.model import Deck
+from hydro1d.deck.parts import Checkpoint, Layer, Output, Time
 from hydro1d.deck.schema import deck_schema
 
-__all__ = ["MOST_ZONES", "Checkpoint", "Deck", "Layer", "Output", "Time", "deck_schema", "load_deck"]
+__all__ = ["Checkpoint", "Deck", "Layer", "Output", "Time", "deck_schema", "load_deck"]

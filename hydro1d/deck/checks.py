@@ -1,4 +1,4 @@
-"""What the parts of a deck must be to each other."""
+"""Checks between the parts of a deck: zones in all, times and positions, laws and loads on their ends."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hydro1d.components.units import shorten
-from hydro1d.deck.messages import MOST_FOUND, Finding
+from hydro1d.deck.messages import MAX_FOUND, Finding
+from hydro1d.deck.parts import MAX_ZONES, Layer, Output, Time
 from hydro1d.errors import Hydro1dError
+from hydro1d.laws.check import check_law
 
 if TYPE_CHECKING:
     from hydro1d.boundaries.base import Boundary
-    from hydro1d.deck.model import Layer, Output, Time
     from hydro1d.laws.base import Law
 
 
@@ -22,12 +23,11 @@ def cross_problems(
     right: Boundary | None,
     time: Time | None,
     output: Output | None,
-    most_zones: int,
 ) -> list[Finding]:
     """Return what is wrong between the parts of a deck; a part that is wrong itself comes as None."""
     found: list[Finding] = []
     if layers is not None:
-        found += _check_layers(layers, most_zones)
+        found += _check_layers(layers)
     if layers:
         found += _check_end("left", left, layers) + _check_end("right", right, layers)
     if output is not None and time is not None and not isinstance(output.profiles, int):
@@ -45,25 +45,25 @@ def cross_problems(
 
 
 def _outside(values: Sequence[float], most: float) -> list[tuple[int, float]]:
-    """Numbers below 0 or above ``most``, with their indices; no more than anybody corrects at once."""
+    """Numbers below 0 or above ``most``, with their indices; at most `MAX_FOUND`."""
     outside = ((index, value) for index, value in enumerate(values) if not 0.0 <= value <= most)
-    return list(itertools.islice(outside, MOST_FOUND))
+    return list(itertools.islice(outside, MAX_FOUND))
 
 
-def _check_layers(layers: Sequence[Layer], most_zones: int) -> list[Finding]:
+def _check_layers(layers: Sequence[Layer]) -> list[Finding]:
     if not layers:
         return [Finding(("layer",), "there is none", None, "one [[layer]] or more")]
     zones = sum(layer.zones for layer in layers)
     found = []
-    if zones > most_zones:
-        found.append(Finding(("layer",), f"{zones} zones in all layers together", zones, f"at most {most_zones}"))
+    if zones > MAX_ZONES:
+        found.append(Finding(("layer",), f"{zones} zones in all layers together", zones, f"at most {MAX_ZONES}"))
     checked: list[Law] = []
     for index, layer in enumerate(layers):
         if layer.thickness / layer.zones < 1e-300 or layer.law.density * layer.thickness / layer.zones < 1e-300:
             found.append(Finding(("layer", index), "zones of no size", None, "a larger thickness or fewer zones"))
         if not any(layer.law is law for law in checked):
             checked.append(layer.law)
-            found += check_law(_law_path(index, layer), layer.law)
+            found += _check_law(_law_path(index, layer), layer.law)
     return found
 
 
@@ -71,12 +71,10 @@ def _law_path(index: int, layer: Layer) -> tuple[str | int, ...]:
     return ("material", layer.material, "law") if layer.material else ("layer", index, "law")
 
 
-def check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:
+def _check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:
     """Run the law once in plain Python, so that the first error its author meets is not a compiler's."""
-    from hydro1d.laws.check import check_law as run
-
     try:
-        run(law)
+        check_law(law)
     except (Exception, SystemExit) as error:  # a user's code may raise anything
         return [Finding(path, _sentence(error))]
     return []
@@ -90,7 +88,7 @@ def _sentence(error: BaseException) -> str:
 
 
 def _check_end(side: str, boundary: Boundary | None, layers: Sequence[Layer]) -> list[Finding]:
-    """A load that makes no sense on this end (a striker that flies away) says so before anything is computed."""
+    """Start the boundary once: a load that makes no sense on this end (a striker that flies away) is refused."""
     if boundary is None:
         return []
     sign, layer = (1.0, layers[0]) if side == "left" else (-1.0, layers[-1])

@@ -16,7 +16,7 @@ from hydro1d.components.units import shorten
 from hydro1d.deck import overrides as overriding
 from hydro1d.deck.checks import cross_problems
 from hydro1d.deck.messages import (
-    MOST_FOUND,
+    MAX_FOUND,
     DeckProblems,
     Finding,
     deck_error,
@@ -25,18 +25,8 @@ from hydro1d.deck.messages import (
     unknown_key,
     unknown_word,
 )
-from hydro1d.deck.model import (
-    LONGEST_NAME,
-    LONGEST_TITLE,
-    MOST_LAYERS,
-    MOST_ZONES,
-    Checkpoint,
-    Deck,
-    Layer,
-    Output,
-    Time,
-    plain_text,
-)
+from hydro1d.deck.model import Deck
+from hydro1d.deck.parts import MAX_LAYERS, MAX_NAME, MAX_TITLE, Checkpoint, Layer, Output, Time, plain_text
 from hydro1d.deck.plausible import notes_on
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
@@ -122,7 +112,7 @@ class _Builder:
     def build(self) -> dict[str, Any]:
         """Return the arguments of `Deck`; they are complete only if `found` stays empty."""
         unknown = [key for key in self.data if key not in _SECTIONS]
-        self.found += [unknown_key((key,), _SECTIONS) for key in unknown[:MOST_FOUND]]
+        self.found += [unknown_key((key,), _SECTIONS) for key in unknown[:MAX_FOUND]]
         parts: dict[str, Any] = {
             "title": self._title(),
             "layers": self._layers(self._materials()),
@@ -141,7 +131,7 @@ class _Builder:
             return  # Deck does it
         layers = parts["layers"]
         known = {finding.path for finding in self.found}
-        found = cross_problems(layers, parts["left"], parts["right"], parts["time"], parts["output"], MOST_ZONES)
+        found = cross_problems(layers, parts["left"], parts["right"], parts["time"], parts["output"])
         self.found += [finding for finding in found if finding.path not in known]
 
     def _title(self) -> str:
@@ -208,12 +198,12 @@ class _Builder:
             return {}
         materials = {}
         tables = self._table(("material",), self.data["material"]) or {}
-        if len(tables) > MOST_LAYERS:
-            self.found.append(Finding(("material",), f"{len(tables)} materials", None, f"at most {MOST_LAYERS}"))
+        if len(tables) > MAX_LAYERS:
+            self.found.append(Finding(("material",), f"{len(tables)} materials", None, f"at most {MAX_LAYERS}"))
             return {}
         for name, values in tables.items():
             path = ("material", name)
-            if not name or len(name) > LONGEST_NAME:
+            if not name or len(name) > MAX_NAME:
                 self.found.append(Finding(path, f"{shorten(name)} is not a name", name, "a short text", at_key=True))
             table = self._table(path, values)
             cls = self._class("law", (*path, "law"), table) if table is not None else None
@@ -230,8 +220,8 @@ class _Builder:
                 Finding(("layer",), "is not a list of layers", None, "[[layer]], with two brackets", at_key=True)
             )
             return None
-        if len(rows) > MOST_LAYERS:
-            self.found.append(Finding(("layer",), f"{len(rows)} layers", None, f"at most {MOST_LAYERS}", at_key=True))
+        if len(rows) > MAX_LAYERS:
+            self.found.append(Finding(("layer",), f"{len(rows)} layers", None, f"at most {MAX_LAYERS}", at_key=True))
             return None
         layers = [self._layer(index, row, materials) for index, row in enumerate(rows)]
         return [layer for layer in layers if layer is not None] if None not in layers else None
@@ -248,7 +238,7 @@ class _Builder:
         elif not isinstance(name, str) or name not in materials:
             self.found.append(unknown_word((*path, "material"), name, "a material of this deck", known))
         unknown = [key for key in table if key not in _LAYER_KEYS]
-        self.found += [unknown_key((*path, key), _LAYER_KEYS) for key in unknown[:MOST_FOUND]]
+        self.found += [unknown_key((*path, key), _LAYER_KEYS) for key in unknown[:MAX_FOUND]]
         spec, law = materials.get(name, ("", None)) if isinstance(name, str) else ("", None)
         self.names[f"layer[{index}].law"] = spec
         stand_in = law if law is not None else Law.model_construct()  # the other keys are checked all the same
@@ -283,7 +273,7 @@ class _Builder:
         own = {key: value for key, value in values.items() if key in cls.model_fields and key != "pulse"}
         known = {**pulse_cls.model_fields, **cls.model_fields}
         unknown = [key for key in values if key not in known]
-        self.found += [unknown_key((side, key), known) for key in unknown[:MOST_FOUND]]
+        self.found += [unknown_key((side, key), known) for key in unknown[:MAX_FOUND]]
         rest = {key: value for key, value in values.items() if key not in cls.model_fields and key in known}
         pulse = self._validated(pulse_cls, rest, (side,))
         return None if pulse is None else self._validated(cls, {**own, "pulse": pulse}, (side,))
@@ -292,5 +282,5 @@ class _Builder:
 class _Title(Component):
     """The title's own checks, for a deck whose other parts are wrong."""
 
-    title: str = Field("", max_length=LONGEST_TITLE)
+    title: str = Field("", max_length=MAX_TITLE)
     _plain_title = field_validator("title")(plain_text)

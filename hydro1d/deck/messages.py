@@ -16,8 +16,8 @@ from hydro1d.errors import DeckError, Problem
 if TYPE_CHECKING:
     from hydro1d.deck.positions import Location
 
-MOST_SHOWN = 50  # problems in one message
-MOST_FOUND = 500  # in one table; nobody corrects more at once, and each costs time
+MAX_SHOWN = 50  # problems in one message
+MAX_FOUND = 500  # problems collected from one table; each costs time, and 50 are shown
 
 
 class Finding(NamedTuple):
@@ -50,13 +50,13 @@ def path_text(path: Location) -> str:
 
 
 def unknown_key(path: Location, known: Iterable[str]) -> Finding:
-    """The finding for a key that nobody asks for, with the nearest one that there is."""
+    """Finding for an unknown key; it suggests the nearest known key."""
     names = list(known)
     return Finding(path, "unknown key" + suggestion(str(path[-1]), names), None, one_of(names), at_key=True)
 
 
 def unknown_word(path: Location, value: Any, what: str, known: Iterable[str]) -> Finding:
-    """The finding for a name that is not in a list."""
+    """Finding for a name that is not among those allowed."""
     names = list(known)
     return Finding(path, f"{shorten(value)} is not {what}{suggestion(value, names)}", value, one_of(names))
 
@@ -70,12 +70,12 @@ def suggestion(word: Any, known: list[str]) -> str:
 
 
 def one_of(names: list[str], most: int = 20) -> str:
-    """The names as a list for reading."""
+    """Names as text: ``a, b or c``."""
     return ", ".join(shorten(name)[1:-1] for name in names[:most]) + (", …" if len(names) > most else "")
 
 
 def allowed(field: FieldInfo) -> str:
-    """What may stand in a field, as a phrase made of its unit, type and bounds."""
+    """Values that a field allows, as a phrase made of its unit, type and bounds."""
     extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
     words = _words(field.annotation)
     if "units" in extra:
@@ -119,7 +119,7 @@ def findings_of(
 ) -> list[Finding]:
     """Return pydantic's complaints about ``raw``, the values of ``cls`` at ``prefix``, one for each key."""
     found: dict[Location, Finding] = {}
-    for detail in error.errors(include_url=False)[:MOST_FOUND]:
+    for detail in error.errors(include_url=False)[:MAX_FOUND]:
         location = detail["loc"]
         owner, values, path = cls, raw, prefix
         while len(location) > 1 and (inner := _model(owner, location[0])) is not None:
@@ -179,8 +179,8 @@ def deck_error(
     problems.sort(key=lambda problem: (problem.line or 0, problem.column or 0))
     where = f"{source}: " if source else "the deck: "
     count = "1 problem" if len(problems) == 1 else f"{len(problems)} problems"
-    error = DeckProblems(where + count, problems[:MOST_SHOWN])
-    if len(problems) > MOST_SHOWN:
-        error.args = (f"{error}\n  … and {len(problems) - MOST_SHOWN} more",)
+    error = DeckProblems(where + count, problems[:MAX_SHOWN])
+    if len(problems) > MAX_SHOWN:
+        error.args = (f"{error}\n  … and {len(problems) - MAX_SHOWN} more",)
     error.problems, error.findings = problems, findings
     return error

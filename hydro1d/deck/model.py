@@ -1,10 +1,8 @@
-"""The parts of a deck as frozen models; values in SI."""
+"""A whole deck as one frozen model; values in SI."""
 
 from __future__ import annotations
 
-import itertools
 import json
-import unicodedata
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,91 +10,12 @@ from typing import Any
 from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from hydro1d.boundaries.base import Boundary
-from hydro1d.components.parameters import Component, number, positive
-from hydro1d.components.units import convert, shorten
+from hydro1d.components.parameters import Component
 from hydro1d.deck.checks import cross_problems
 from hydro1d.deck.messages import deck_error, findings_of
 from hydro1d.deck.names import plugin_name
-from hydro1d.laws.base import Law
+from hydro1d.deck.parts import MAX_LAYERS, MAX_TITLE, Checkpoint, Layer, Output, Time, plain_text
 from hydro1d.scheme.viscosity import Viscosity
-
-MOST_ZONES = 10_000_000
-MOST_LAYERS = 2_000
-MOST_PROFILES = 1_000_000
-MOST_PROBES = 10_000
-LONGEST_TITLE = 1000
-LONGEST_NAME = 200
-
-
-def plain_text(text: str) -> str:
-    """Return ``text`` if files and terminals can show it. Raises ValueError for control characters and the like."""
-    if any(unicodedata.category(character) in ("Cc", "Cs") for character in text):
-        raise ValueError(f"{shorten(text)} has control characters; it must be text that can be printed")
-    return text
-
-
-class Layer(Component):
-    """One layer of the column: a law, how thick, how many zones, how fast at t = 0."""
-
-    law: Law
-    thickness: float = positive("m", "thickness")
-    zones: int = Field(..., ge=1, le=MOST_ZONES, description="number of zones")
-    velocity: float = number("m/s", "velocity at t = 0, positive to the right", default=0.0)
-    material: str = Field("", max_length=LONGEST_NAME, description="name of a [material.NAME] table")
-
-    _plain_material = field_validator("material")(plain_text)
-
-
-class Time(Component):
-    """How long to calculate, and how large the steps are."""
-
-    end: float = positive("s", "time at which the calculation ends")
-    cfl: float = Field(
-        0.8, gt=0.0, le=1.0, allow_inf_nan=False, json_schema_extra={"unit": "1"},
-        description="time step as a share of the stability bound",
-    )  # fmt: skip
-
-
-class Output(Component):
-    """What is stored, and when."""
-
-    profiles: int | tuple[float, ...] = Field(
-        100,
-        json_schema_extra={"unit": "s"},
-        description="how many profiles, evenly spaced from t = 0 to the end, or a list of rising times",
-    )
-    history: int = Field(10, ge=1, le=10**9, description="a row of the history every so many cycles")
-    probes: tuple[float, ...] = Field(
-        (), json_schema_extra={"unit": "m"}, max_length=MOST_PROBES, description="Lagrangian positions of the probes"
-    )
-
-    @field_validator("profiles", mode="before")
-    @classmethod
-    def _count_or_times(cls, value: Any) -> Any:
-        if isinstance(value, int) and not isinstance(value, bool) and 2 <= value <= MOST_PROFILES:
-            return value
-        if isinstance(value, list | tuple) and 1 <= len(value) <= MOST_PROFILES:
-            times = tuple(convert(time, "s") for time in value)
-            if any(later <= earlier for earlier, later in itertools.pairwise(times)):
-                raise ValueError("the times must rise strictly")
-            return times
-        raise ValueError(f"{shorten(value)} is neither a count from 2 to {MOST_PROFILES} nor a list of times")
-
-
-class Checkpoint(Component):
-    """How often the state is saved: by cycles, by simulated time or by wall time; exactly one of them."""
-
-    cycles: int | None = Field(
-        None, ge=1, le=10**12, description="cycles between checkpoints, each taken at the next multiple of 32"
-    )
-    time: float | None = positive("s", "simulated time between checkpoints", default=None)
-    wall: float | None = positive("s", "wall time between checkpoints", default=None)
-
-    @model_validator(mode="after")
-    def _exactly_one(self) -> Checkpoint:
-        if sum(interval is not None for interval in (self.cycles, self.time, self.wall)) != 1:
-            raise ValueError("needs exactly one of cycles, time, wall")
-        return self
 
 
 class Deck(Component):
@@ -118,8 +37,8 @@ class Deck(Component):
 
     model_config = ConfigDict(arbitrary_types_allowed=False)
 
-    title: str = Field("", max_length=LONGEST_TITLE, description="a line of text that figures and files carry")
-    layers: tuple[Layer, ...] = Field(..., max_length=MOST_LAYERS)
+    title: str = Field("", max_length=MAX_TITLE, description="a line of text that figures and files carry")
+    layers: tuple[Layer, ...] = Field(..., max_length=MAX_LAYERS)
     left: Boundary
     right: Boundary
     time: Time
@@ -143,10 +62,10 @@ class Deck(Component):
 
     @model_validator(mode="after")
     def _as_a_whole(self) -> Deck:
-        found = cross_problems(self.layers, self.left, self.right, self.time, self.output, MOST_ZONES)
+        found = cross_problems(self.layers, self.left, self.right, self.time, self.output)
         if found:
             raise deck_error(self.path, found)
-        # Frozen for everyone else: what the parts could not know without each other is filled in here.
+        # The model is frozen; only here are values filled in that follow from several parts.
         object.__setattr__(self, "output", self._resolved_output())
         object.__setattr__(self, "layers", tuple(self._named(index) for index in range(len(self.layers))))
         return self

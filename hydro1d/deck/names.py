@@ -1,4 +1,4 @@
-"""How a deck calls a component that was built in Python."""
+"""Names by which a deck refers to components built in Python."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from hydro1d.deck.positions import Location
 
 _PART = re.compile(r'\.?(?:"([^"]*)"|\'([^\']*)\'|\[(\d{1,9})\]|([^.\[\]="\']+))')
-_MOST_PARTS = 20
+_MAX_PARTS = 20
 
 
 class Override(NamedTuple):
@@ -28,7 +28,7 @@ def parse_override(text: str) -> Override | Finding:
     """Return the override that ``text`` means; the value is TOML, or, where that fails, the text itself."""
     path: list[str | int] = []
     position = 0
-    while position < len(text) and text[position] != "=" and len(path) <= _MOST_PARTS:
+    while position < len(text) and text[position] != "=" and len(path) <= _MAX_PARTS:
         match = _PART.match(text, position)
         if match is None or (position == 0 and text[0] in ".["):
             break

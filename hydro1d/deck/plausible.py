@@ -1,10 +1,10 @@
-"""A guess at forgotten units: plain numbers that are SI by rule and hardly by intent.
+"""Notes on units that may have been forgotten: plain numbers are SI, and some are implausible as such.
 
-A number with a unit is what its author says it is. A plain one is SI, and 0.8 for a stress of 0.8 MPa is easily written: it
-runs, and the result is nonsense. The bounds below are orders of magnitude away from what foams, metals and blasts have.
+A number with a unit is taken at its word. A plain one is SI, and 0.8 for a stress of 0.8 MPa is easily written: the deck runs,
+and the result is wrong by orders of magnitude. The bounds below lie far outside the values of foams, metals and blasts.
 
-Decks without dimensions, in which everything is of the order of one, are nobody's slip. They are known by their densities:
-only a deck with a material of `_LIGHTEST` or more, or with a solid too strong for its density, is looked at.
+Dimensionless decks, in which every number is of the order of one, are no mistake. Their densities tell them apart: only a deck
+with a density of at least `_LIGHTEST`, or with a solid too strong for its density, is examined.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import BaseModel
 
+from hydro1d.components import tables
 from hydro1d.deck.messages import path_text
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 _LIGHTEST = 5.0  # kg/m³; lighter solids are laboratory curiosities, and gases have other stresses
 _STRONG = 1e5  # Pa: beyond any solid lighter than the least density below
-_MOST_NAMED = 3
+_MAX_NAMED = 3
 
 
 class _Range(NamedTuple):
@@ -70,8 +71,8 @@ def notes_on(deck: Deck, data: Mapping[str, Any], folder: Path) -> tuple[str, ..
     odd = [(number, usual) for number, usual in _all(deck, laws, data, folder) if usual]
     if not odd:
         return ()
-    named = ", ".join(str(number) for number, _ in odd[:_MOST_NAMED])
-    more = f" and {len(odd) - _MOST_NAMED} more" if len(odd) > _MOST_NAMED else ""
+    named = ", ".join(str(number) for number, _ in odd[:_MAX_NAMED])
+    more = f" and {len(odd) - _MAX_NAMED} more" if len(odd) > _MAX_NAMED else ""
     first, usual = odd[0]
     return (f'is a unit missing? {named}{more}: a number without a unit is SI; "{first.value:g} {usual}" has one',)
 
@@ -112,7 +113,7 @@ def _is_too_strong(law: Law) -> bool:
 
 
 def _units(cls: type[BaseModel]) -> dict[str, str]:
-    """The unit of each field that has one."""
+    """Unit of each field that has one."""
     extras = {key: field.json_schema_extra for key, field in cls.model_fields.items()}
     return {key: str(extra["unit"]) for key, extra in extras.items() if isinstance(extra, dict) and "unit" in extra}
 
@@ -139,11 +140,9 @@ def _largest(path: Location, table: Mapping[str, Any], law: Law, folder: Path) -
 
 def _has_unit(table: Any, units: tuple[str, ...], folder: Path) -> bool:
     """Whether the second column of a table, in the deck or in a file, was given with a unit."""
-    from hydro1d.components.tables import TableError, read_rows
-
     if not isinstance(table, str):
         return any(isinstance(row[1], str) for row in table)
     try:
-        return bool(read_rows(table, (units[0], units[1]), folder)[1][1])
-    except TableError:  # changed since the law read it
+        return bool(tables.read_rows(table, (units[0], units[1]), folder)[1][1])
+    except tables.TableError:  # changed since the law read it
         return True

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 Location = tuple[str | int, ...]
 
-_MOST_PLACES = 200_000
+_MAX_PLACES = 200_000
 _TOKEN = re.compile(
     r'''(?P<space>[ \t\r]+|\#[^\n]*)
     |(?P<newline>\n)
@@ -65,7 +65,7 @@ class _Scanner:
         self._token = next(self._tokens)
         table: Location = ()
         try:
-            while self._token.kind != "end" and len(self.places) < _MOST_PLACES:
+            while self._token.kind != "end" and len(self.places) < _MAX_PLACES:
                 if self._token.kind == "newline":
                     self._advance()
                 elif self._token.text == "[":

@@ -9,7 +9,7 @@ from typing import Any
 
 from hydro1d.errors import DeckError, FileProblem, Problem
 
-LARGEST_DECK = 512 * 1024  # bytes; measured tables belong into CSV files
+MAX_DECK_BYTES = 512 * 1024  # bytes; measured tables belong into CSV files
 DEEPEST_KEY = 50  # dots in one key
 
 _COMMA = re.compile(r"^[^=#\"]*=\s*([+-]?\d+),(\d+)")
@@ -22,14 +22,14 @@ def read_text(path: Path, what: str = "deck") -> str:
     """Return the text of a deck's (or another) file. Raises FileProblem if it cannot be read, DeckError if it is not UTF-8."""
     try:
         with open(path, "rb") as file:
-            raw = file.read(LARGEST_DECK + 1)
+            raw = file.read(MAX_DECK_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         reason = getattr(error, "strerror", None) or str(error)
         raise FileProblem(f"the {what} {str(path)[:300]!r} cannot be read: {reason}") from None
     if raw.startswith(b"\x89HDF"):
         raise DeckError(f"{path} is a result (HDF5), not a {what}; hydro1d plot and hydro1d report take it")
-    if len(raw) > LARGEST_DECK:
-        raise DeckError(f"{path}: larger than {LARGEST_DECK // 1024} kB; put long tables into CSV files")
+    if len(raw) > MAX_DECK_BYTES:
+        raise DeckError(f"{path}: larger than {MAX_DECK_BYTES // 1024} kB; put long tables into CSV files")
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -42,8 +42,8 @@ def read_text(path: Path, what: str = "deck") -> str:
 def parse(text: str, source: Path | str | None = None) -> dict[str, Any]:
     """Return the data of a TOML text. Raises DeckError with line and column."""
     where = f"{source}: " if source else "the deck: "
-    if len(text) > LARGEST_DECK:
-        raise DeckError(f"{where}larger than {LARGEST_DECK // 1024} kB; put long tables into CSV files")
+    if len(text) > MAX_DECK_BYTES:
+        raise DeckError(f"{where}larger than {MAX_DECK_BYTES // 1024} kB; put long tables into CSV files")
     try:
         text.encode("utf-8")
     except UnicodeEncodeError:
@@ -76,7 +76,7 @@ def _syntax_problem(message: str, text: str) -> Problem:
 
 
 def _slip(row: str) -> str:
-    """A guess at what was meant by a row that is no TOML, or nothing."""
+    """Hint at the likely mistake in a line that is no TOML, or nothing."""
     if match := _COMMA.match(row):
         return f"; a number has a decimal point, {match[1]}.{match[2]}, and with a unit stands in quotes"
     if match := _BARE_UNIT.match(row):

@@ -8,7 +8,7 @@ from typing import Any
 from hydro1d.components.parameters import Component
 from hydro1d.components.plugins import available
 from hydro1d.deck.messages import allowed
-from hydro1d.deck.model import LONGEST_TITLE, Checkpoint, Layer, Output, Time
+from hydro1d.deck.parts import MAX_TITLE, Checkpoint, Layer, Output, Time
 from hydro1d.scheme.viscosity import Viscosity
 
 _BOUNDS = ("exclusiveMinimum", "exclusiveMaximum", "minimum", "maximum")
@@ -21,7 +21,7 @@ def deck_schema() -> dict[str, Any]:
     layer = _object(Layer, without=("law", "material"), extra={"material": {"type": "string", "minLength": 1}})
     layer["required"] = ["material", *layer.get("required", [])]
     sections: dict[str, Any] = {
-        "title": {"type": "string", "maxLength": LONGEST_TITLE},
+        "title": {"type": "string", "maxLength": MAX_TITLE},
         "material": {
             "type": "object",
             "minProperties": 1,

@@ -75,17 +75,17 @@ def _is_flat(
 def _half_widths(differences: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
     """Half of each 95 % interval, from the linearised covariance; infinite where the curve says nothing."""
     size = np.linalg.norm(jacobian, axis=0)
-    felt = size > 0.0
+    sensitive = size > 0.0
     half = np.full(len(size), np.inf)
-    if not felt.any():
+    if not sensitive.any():
         return half
-    freedom = max(len(differences) - int(felt.sum()), 1)
+    freedom = max(len(differences) - int(sensitive.sum()), 1)
     variance = float(differences @ differences) / freedom
-    _, singular, right = np.linalg.svd(jacobian[:, felt] / size[felt], full_matrices=False)
+    _, singular, right = np.linalg.svd(jacobian[:, sensitive] / size[sensitive], full_matrices=False)
     inverse = np.divide(1.0, singular, out=np.full(len(singular), np.inf), where=singular > 1e-12 * singular[0])
     with np.errstate(invalid="ignore"):
         spread = np.sqrt(np.nansum((right.T * inverse) ** 2, axis=1) * variance)
-    half[felt] = _quantile(freedom) * spread / size[felt]
+    half[sensitive] = _quantile(freedom) * spread / size[sensitive]
     return half
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from hydro1d.analysis.openings import find_openings
-from hydro1d.analysis.transmission import NOT_REACHED, Verdict, verdict_of
+from hydro1d.analysis.transmission import NOT_REACHED, Transmission, transmission_of
 from hydro1d.errors import FileProblem
 from hydro1d.plot._base import name_of
 from hydro1d.plot._units import scale_for
@@ -34,39 +34,42 @@ def require_history(run: Run) -> None:
 def headline(run: Run, deck: Deck | None = None) -> str:
     """The answer in a sentence or two; of a run that stopped early, only what it has shown up to there."""
     require_history(run)
-    verdict, left = verdict_of(run, deck), uncrushed(run)
+    transmission, left = transmission_of(run, deck), uncrushed(run)
     if run.status != "complete":
-        return _headline_so_far(run, verdict)
-    text = _answer(verdict)
+        return _headline_so_far(run, transmission)
+    text = _answer(transmission)
     if left is not None:
         text += " The column is fully crushed." if left <= 0.0 else f" {100 * left:.3g} % of the column is not crushed."
-    if verdict.pending:
-        text += f" At the end {' and '.join(verdict.pending)}: a later end time may change this."
+    if transmission.pending:
+        text += f" At the end {' and '.join(transmission.pending)}: a later end time may change this."
     return text
 
 
-def _answer(verdict: Verdict) -> str:
-    support, felt = verdict.ends.support, scale_for("Pa", verdict.felt).show(verdict.felt)
-    if verdict.felt == 0.0:
+def _answer(transmission: Transmission) -> str:
+    support = transmission.ends.support
+    if transmission.transmitted == 0.0:
         undecided = f"{NOT_REACHED[0].upper()}{NOT_REACHED[1:]}."
-        return undecided if verdict.applied > 0.0 else f"The wave has not reached the {support} end."
-    if verdict.applied == 0.0:
-        return f"The {support} end feels {felt} at most."
-    applied = scale_for("Pa", verdict.applied).show(verdict.applied)
-    word = verdict.word[0].upper() + verdict.word[1:]
-    return f"{word}: the {support} end feels {felt} at most, {verdict.ratio:.3g} times the applied peak of {applied}."
+        return undecided if transmission.applied > 0.0 else f"The wave has not reached the {support} end."
+    transmitted = scale_for("Pa", transmission.transmitted).show(transmission.transmitted)
+    if transmission.applied == 0.0:
+        return f"The {support} end feels {transmitted} at most."
+    applied = scale_for("Pa", transmission.applied).show(transmission.applied)
+    word = transmission.word[0].upper() + transmission.word[1:]
+    ratio = f"{transmission.ratio:.3g} times the applied peak of {applied}"
+    return f"{word}: the {support} end feels {transmitted} at most, {ratio}."
 
 
-def _headline_so_far(run: Run, verdict: Verdict) -> str:
-    end, support = float(run.history["time"][-1]), verdict.ends.support
+def _headline_so_far(run: Run, transmission: Transmission) -> str:
+    end, support = float(run.history["time"][-1]), transmission.ends.support
     text = f"Up to {scale_for('s', end).show(end)} "
-    if verdict.felt == 0.0:
+    if transmission.transmitted == 0.0:
         text += f"the wave has not reached the {support} end"
     else:
-        text += f"the {support} end has felt {scale_for('Pa', verdict.felt).show(verdict.felt)} at most"
-        if verdict.applied > 0.0:
-            applied = scale_for("Pa", verdict.applied).show(verdict.applied)
-            text += f", {verdict.ratio:.3g} times the applied peak of {applied}"
+        transmitted = scale_for("Pa", transmission.transmitted).show(transmission.transmitted)
+        text += f"the {support} end has felt {transmitted} at most"
+        if transmission.applied > 0.0:
+            applied = scale_for("Pa", transmission.applied).show(transmission.applied)
+            text += f", {transmission.ratio:.3g} times the applied peak of {applied}"
     left = uncrushed(run)
     return text + ("." if left is None else f"; {100 * left:.3g} % of the column is not crushed yet.")
 
@@ -83,16 +86,16 @@ def uncrushed(run: Run) -> float | None:
 def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
     """Loads, crushing, steps."""
     require_history(run)
-    verdict, history = verdict_of(run, deck), run.history
-    pressure = scale_for("Pa", [verdict.felt, verdict.applied])
+    transmission, history = transmission_of(run, deck), run.history
+    pressure = scale_for("Pa", [transmission.transmitted, transmission.applied])
     rows = []
-    if verdict.applied > 0.0:
-        rows.append(Number("peak of the applied pressure", pressure.show(verdict.applied)))
-    support = verdict.ends.support
-    when = _when(run, support) if verdict.felt > 0.0 else "the wave has not reached it"
-    rows.append(Number(f"peak stress on the support ({support} end)", pressure.show(verdict.felt), when))
-    if verdict.applied > 0.0:
-        rows.append(_ratio(run, verdict))
+    if transmission.applied > 0.0:
+        rows.append(Number("peak of the applied pressure", pressure.show(transmission.applied)))
+    support = transmission.ends.support
+    when = _when(run, support) if transmission.transmitted > 0.0 else "the wave has not reached it"
+    rows.append(Number(f"peak stress on the support ({support} end)", pressure.show(transmission.transmitted), when))
+    if transmission.applied > 0.0:
+        rows.append(_ratio(run, transmission))
     peak = float(history["peak_stress"][-1])
     rows.append(Number("largest stress anywhere", scale_for("Pa", peak).show(peak), "every cycle counted"))
     left = uncrushed(run)
@@ -129,11 +132,11 @@ def _opened(run: Run, deck: Deck | None) -> list[Number]:
     return rows
 
 
-def _ratio(run: Run, verdict: Verdict) -> Number:
-    if verdict.felt == 0.0:
+def _ratio(run: Run, transmission: Transmission) -> Number:
+    if transmission.transmitted == 0.0:
         return Number("support over applied", "–", "not decided yet")
-    early = run.status != "complete" and verdict.ratio <= 1.0
-    return Number("support over applied", f"{verdict.ratio:.4g}", "so far" if early else verdict.word)
+    early = run.status != "complete" and transmission.ratio <= 1.0
+    return Number("support over applied", f"{transmission.ratio:.4g}", "so far" if early else transmission.word)
 
 
 def _when(run: Run, support: str) -> str:

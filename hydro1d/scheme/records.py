@@ -32,7 +32,8 @@ CALL = record(
 # A layer: its zones [first, end), and where the parameters of its law begin. Size (m), zone mass (kg/m²) and what follows
 # from them are those of every zone where the layer is uniform; elsewhere the arrays over zones have them.
 LAYER = record(
-    "zone_size min_size inverse_size density zone_mass inverse_zone_mass crushed_strain yield_strain linear limited_linear quadratic",
+    "zone_size min_size inverse_size density zone_mass inverse_zone_mass crushed_strain yield_strain "
+    "linear limited_linear quadratic",
     "first end parameters",
     "is_uniform",
 )

@@ -6,7 +6,6 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from hydro1d.scheme import profiles, step
 from hydro1d.scheme.records import CLOCK, COLLAPSED, INVERTED, LAYER_STATE, NOT_FINITE, PAUSED
 from hydro1d.solver.column import Column, initial_velocities
 from hydro1d.solver.program import Program
+from hydro1d.solver.sink import Frame, Sink
 from hydro1d.solver.state import State
 from hydro1d.variables import NODE, ZONE
 
@@ -27,34 +27,6 @@ STOPS = 16  # after which a stretch ends: profiles can be compressed while the n
 MAX_VALUES = 1 << 23  # of the profiles of a stretch; in longer columns it ends at every stop
 RETRIES = 3
 EASE = 1.0 / 16.0  # of the stable step, the first one: what the loads will move is not moving yet
-
-
-@dataclass(frozen=True)
-class Frame:
-    """Profiles at one time: arrays over nodes and over zones by name."""
-
-    time: float
-    cycle: int
-    fields: dict[str, np.ndarray]
-
-
-class Sink(Protocol):
-    """Where results go."""
-
-    def profile(self, frame: Frame) -> None:
-        """Take the profiles at one time; the arrays are views of what one call recorded."""
-
-    def history(self, rows: np.ndarray, probes: np.ndarray) -> None:
-        """Take rows of history (rows, columns) and of probes (rows, probes, 4)."""
-
-    def flush(self) -> None:
-        """All records up to some time have been handed over: what there is makes sense as it stands."""
-
-    def checkpoint(self, state: State) -> object:
-        """Take a state to restart from; everything up to its time has been handed over."""
-
-    def maxima(self, zone_maxima: dict[str, np.ndarray]) -> None:
-        """Take what was largest in each zone over the run."""
 
 
 @dataclass(frozen=True)

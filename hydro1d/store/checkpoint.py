@@ -1,4 +1,4 @@
-"""Checkpoints: everything stored so far and the whole state of the solver, in one file that needs no other."""
+"""Checkpoints: all records so far and the whole state of the solver in one file, which needs no other."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from hydro1d.store.source import FileSource
 
 LAW_HASH = "law_hash_"
-# What may differ between a checkpoint's deck and the deck that carries on: nothing that changes a step taken so far.
+# Keys that may differ between a checkpoint's deck and the deck of the restart: they change no step taken so far.
 _FREE = ("title", "output", "checkpoint", "time.end")
 _MISSING = object()
 
@@ -127,9 +127,9 @@ def _shown(value: Any) -> str:
 
 
 def replay(checkpoint: Checkpoint, recorder: Recorder) -> None:
-    """Hand the records of a checkpoint to a recorder, as if they had just been made, a few rows at a time.
+    """Copy the records of a checkpoint into a recorder, a few rows at a time.
 
-    Probes may have been added since: what is not known of them is NaN. Raises FileProblem if zones or quantities are
+    Probes that the checkpoint does not have get NaN. Raises FileProblem if zones or quantities are
     others than the recorder's.
     """
     for table in (recorder.instants, recorder.nodes, recorder.zones, recorder.rows):
@@ -138,7 +138,7 @@ def replay(checkpoint: Checkpoint, recorder: Recorder) -> None:
             if values.shape[2:] != table.tail:
                 raise FileProblem(f"cannot carry on from {checkpoint.path}: it has another number of zones")
             table.append(values)
-            recorder.relieve()
+            recorder.recorded()
     if not recorder.instants.total == recorder.nodes.total == recorder.zones.total:
         raise _ragged(checkpoint)
     if recorder.probes.fields:
@@ -150,7 +150,7 @@ def _ragged(checkpoint: Checkpoint) -> FileProblem:
 
 
 def _replay_probes(checkpoint: Checkpoint, recorder: Recorder) -> None:
-    """What the probes recorded; a probe that the checkpoint does not have gets NaN."""
+    """Copy the probes' records; a probe that the checkpoint does not have gets NaN."""
     source = checkpoint.source
     known = source.array("probes/probe") if "probes/probe" in source.names else np.empty(0)
     wanted = recorder.layout.probe_coordinate
@@ -163,7 +163,7 @@ def _replay_probes(checkpoint: Checkpoint, recorder: Recorder) -> None:
                 values[index, :, new] = array[:, old]
         recorder.probe_times.append(times[None, :])
         recorder.probes.append(values)
-        recorder.relieve()
+        recorder.recorded()
 
 
 def _lists(checkpoint: Checkpoint, paths: list[str], step: int) -> Iterator[list[np.ndarray]]:
@@ -179,5 +179,5 @@ def _lists(checkpoint: Checkpoint, paths: list[str], step: int) -> Iterator[list
 
 
 def _rows(checkpoint: Checkpoint, paths: list[str], step: int) -> Iterator[np.ndarray]:
-    """The same as arrays (dataset, rows, …)."""
+    """Consecutive rows of several datasets of one shape, as arrays (dataset, rows, …)."""
     yield from (np.stack(arrays) for arrays in _lists(checkpoint, paths, step))

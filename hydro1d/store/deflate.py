@@ -1,4 +1,4 @@
-"""HDF5's filters shuffle and gzip, twice as fast: noise is stored as it is.
+"""HDF5's filters shuffle and gzip, twice as fast: bytes that are noise are stored uncompressed.
 
 Shuffled, the values of a chunk become eight planes, one for each byte of a float64: the exponents compress well, the
 last digits of a solution behind a shock do not at all, and gzip spends most of its time on finding that out. A sample
@@ -39,7 +39,7 @@ def deflate(values: np.ndarray) -> bytes:
 
 
 def _noise(planes: np.ndarray) -> int:
-    """How many of the planes, the last digits first, are noise: no digits follow noise but noise."""
+    """Number of planes that are noise, counted from the last digits; all digits behind a noisy one are noise too."""
     if _compresses(planes[0]):
         return 0
     number = len(planes) - 1

@@ -1,4 +1,4 @@
-"""Files that are complete or not there: temporary names, renaming, checks of the target."""
+"""Files that appear complete or not at all: temporary names, renaming, checks of the target."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def _reason(error: BaseException, action: str, path: Path) -> str:
 
 
 def not_hdf5(path: Path, error: BaseException) -> str:
-    """Why the HDF5 library could not read a file, in words that need no knowledge of the library."""
+    """Why the HDF5 library could not read a file, in plain words."""
     if path.stat().st_size == 0:
         return "it is empty"
     if not begins_as_hdf5(path):
@@ -80,7 +80,7 @@ class Temporary:
             os.close(self.fd)
 
     def size(self) -> int:
-        """Bytes in the file."""
+        """Length of the file, bytes."""
         return os.fstat(self.fd).st_size
 
     def append(self, data: bytes | memoryview) -> None:
@@ -92,7 +92,7 @@ class Temporary:
             rest, position = rest[written:], position + written
 
     def reserve(self, more: int) -> None:
-        """Claim space before the HDF5 library writes: it does not recover from a full disk, we do."""
+        """Claim space before the HDF5 library writes: it does not recover from a full disk, this module does."""
         if hasattr(os, "posix_fallocate"):
             os.posix_fallocate(self.fd, 0, self.size() + more)
 

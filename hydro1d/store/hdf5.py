@@ -95,28 +95,19 @@ def new_array(file: h5py.File, field: Field, array: np.ndarray) -> Any:
 
 
 def attach_scales(file: h5py.File, fields: Iterable[Field]) -> None:
-    """Make the coordinates dimension scales and attach them to everything in their group."""
-    fields = list(fields)
-    scales: dict[tuple[str, str], Any] = {}
-    datasets = {field.path: h5d.open(file.id, field.path.encode()) for field in fields}
-    for field in fields:
-        group, _, name = field.path.rpartition("/")
-        if field.dimensions == (name,):
-            h5ds.set_scale(datasets[field.path], name.encode())
-            scales[group, name] = datasets[field.path]
-    for field in fields:
-        group, _, name = field.path.rpartition("/")
-        if field.dimensions == (name,):
-            continue
-        for axis, dimension in enumerate(field.dimensions):
-            h5ds.attach_scale(datasets[field.path], scales[group, dimension], axis)
+    """Make the coordinates among ``fields`` dimension scales; attach to the others the scales of their group."""
+    for field in sorted(fields, key=lambda field: not _is_scale(field)):  # scales first
+        folder, slash, name = field.path.rpartition("/")
+        dataset = h5d.open(file.id, field.path.encode())
+        if _is_scale(field):
+            h5ds.set_scale(dataset, name.encode())
+        else:
+            for axis, dimension in enumerate(field.dimensions):
+                h5ds.attach_scale(dataset, h5d.open(file.id, f"{folder}{slash}{dimension}".encode()), axis)
 
 
-def attach_to(file: h5py.File, field: Field) -> None:
-    """Attach the scales, which exist, to one dataset of the root."""
-    dataset = h5d.open(file.id, field.path.encode())
-    for axis, dimension in enumerate(field.dimensions):
-        h5ds.attach_scale(dataset, h5d.open(file.id, dimension.encode()), axis)
+def _is_scale(field: Field) -> bool:
+    return field.dimensions == (field.path.rpartition("/")[2],)
 
 
 def new_dimensions(file: h5py.File, group: str, arrays: Mapping[str, np.ndarray]) -> None:

@@ -1,4 +1,4 @@
-"""What a file holds: the one place that knows the names, dimensions and units of the file format."""
+"""Names, dimensions and units of everything in a file."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Field(NamedTuple):
 
 @dataclass(frozen=True)
 class Layout:
-    """What stays the same during a run, and the names of what is recorded.
+    """Constants of a run, and the variables that are recorded.
 
     Shapes: node_coordinate (zones + 1,) in m; zone_coordinate (zones,) in m; zone_mass (zones,) in kg/m^2; zone_layer
     (zones,), counted from 0; layer_name (layers,); probe_coordinate (probes,) in m. `zone_history` are the history
@@ -45,7 +45,7 @@ class Layout:
 
     @classmethod
     def of(cls, column: Any) -> Layout:
-        """The layout of a `Column`."""
+        """Layout of a `Column`."""
         return cls(
             node_coordinate=column.node_coordinate,
             zone_coordinate=column.zone_coordinate,
@@ -88,7 +88,6 @@ STATIC = {
 }
 MAXIMA = {
     "largest_strain": Field("maximum_strain", ("zone",), "1", "largest strain of the zone, every cycle counted"),
-    "largest_stress": Field("maximum_stress", ("zone",), "Pa", "largest stress of the zone, every cycle counted"),
 }
 _TIME = Field("time", ("time",), "s", "time")
 

@@ -1,41 +1,44 @@
-"""What every sink shares: from the solver's frames and blocks to tables."""
+"""Recording: profiles, history rows and probes are copied into tables."""
 
 from __future__ import annotations
 
 import time
-from typing import Any, Protocol
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from typing import Any
 
 import numpy as np
 
-from hydro1d.store.layout import Layout, history_fields, probe_fields, profile_fields
+from hydro1d.solver.sink import Frame, Sink
+from hydro1d.store.layout import MAXIMA, Layout, history_fields, probe_fields, profile_fields
 from hydro1d.store.records import Table
 
 
-class Frame(Protocol):
-    """A profile as the solver hands it over: `fields` over nodes (zones + 1,) and zones (zones,), SI."""
+class Recorder(Sink):
+    """Base of the sinks of this folder: it records profiles, history, probes and maxima.
 
-    @property
-    def time(self) -> float:
-        """Time, s."""
+    deck_text: the deck as written; resolved: the same in SI, JSON-able; attributes: further attributes of the root,
+    numbers or text, those named ``law_hash_…`` being compared on a restart.
+    """
 
-    @property
-    def fields(self) -> dict[str, np.ndarray]:
-        """Arrays by name."""
-
-
-class Recorder:
-    """Records profiles, history and probes in tables; what becomes of them is up to the sink."""
-
-    def __init__(self, layout: Layout) -> None:
-        self.layout = layout
+    def __init__(
+        self,
+        layout: Layout,
+        deck_text: str = "",
+        resolved: Mapping[str, Any] | None = None,
+        attributes: Mapping[str, Any] | None = None,
+    ) -> None:
+        self.layout, self.deck_text = layout, deck_text
+        self.resolved, self.attributes = dict(resolved or {}), dict(attributes or {})
+        self.created = datetime.now(UTC).isoformat(timespec="seconds")
+        self.zone_maxima: dict[str, np.ndarray] = {}
         self._begun = time.time()
         instants, nodes, zones = profile_fields(layout)
-        expected = layout.profiles
-        self.instants = Table(instants, (), expected)
-        self.nodes = Table(nodes, (layout.zones + 1,), expected)
-        self.zones = Table(zones, (layout.zones,), expected)
         columns = history_fields(layout) if layout.history else []
         probe_times, probes = probe_fields(layout)
+        self.instants = Table(instants, (), layout.profiles)
+        self.nodes = Table(nodes, (layout.zones + 1,), layout.profiles)
+        self.zones = Table(zones, (layout.zones,), layout.profiles)
         self.rows = Table(columns, ())
         self.probe_times = Table(probe_times, ())
         self.probes = Table(probes, (len(layout.probe_coordinate),))
@@ -49,13 +52,21 @@ class Recorder:
         self.zones.append_row([frame.fields[field.path] for field in self.zones.fields])
         self.recorded()
 
-    def history(self, block: np.ndarray, probes: np.ndarray) -> None:
-        """Record history rows, block (n, columns) in the layout's order, and probes (n, probe, 4); both are copied."""
-        self.rows.append(block.T)
+    def history(self, rows: np.ndarray, probes: np.ndarray) -> None:
+        """Record history rows (n, columns) in the layout's order and probes (n, probe, 4); both are copied."""
+        self.rows.append(rows.T)
         if self.probes.fields:
-            self.probe_times.append(block[:, :1].T)
+            self.probe_times.append(rows[:, :1].T)
             self.probes.append(np.moveaxis(probes, 2, 0))
         self.recorded()
+
+    def maxima(self, zone_maxima: Mapping[str, np.ndarray]) -> None:
+        """Record what was largest in each zone over the run."""
+        self.zone_maxima = {
+            MAXIMA[name].path: np.array(values, dtype=np.float64)
+            for name, values in zone_maxima.items()
+            if name in MAXIMA
+        }
 
     def kept(self, path: str) -> np.ndarray | None:
         """What was recorded of a quantity, or what does not change with time; None if its numbers have been given up."""
@@ -64,16 +75,7 @@ class Recorder:
                 if field.path == path:
                     return table.column(index)
         names = np.array(self.layout.layer_name, dtype=object)
-        return {**self.layout.static(), "layer_name": names}.get(path)
+        return {**self.layout.static(), "layer_name": names, **self.zone_maxima}.get(path)
 
     def recorded(self) -> None:
-        """Called after each record."""
-
-    def flush(self) -> None:
-        """Called when all records up to some time are there; nothing to do where nothing is kept on disk."""
-
-    def relieve(self) -> None:
-        """Called while many records are copied: memory may be freed."""
-
-    def checkpoint(self, state: Any) -> Any:
-        """A checkpoint is due; nothing to do where nothing is kept on disk."""
+        """Called after records: blocks may have become full. In memory there is nothing to do."""

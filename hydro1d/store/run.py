@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import html
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from hydro1d.errors import FileProblem, Hydro1dError
 from hydro1d.store.layout import Field
+from hydro1d.store.source import FileSource
 
 if TYPE_CHECKING:
     import xarray
@@ -27,13 +29,13 @@ class Source(Protocol):
     deck: dict[str, Any]
 
     def array(self, path: str) -> np.ndarray:
-        """Values, SI."""
+        """Values of a quantity, SI."""
 
     def forget(self) -> None:
-        """Keep no array that can be had again."""
+        """Keep no array that can be read again."""
 
     def describe(self, path: str) -> Field:
-        """Dimensions, unit, description."""
+        """Dimensions, unit and description of a quantity."""
 
 
 class RunLayer(NamedTuple):
@@ -52,7 +54,7 @@ class Quantities:
         self._arrays: dict[str, np.ndarray] = {}
 
     def keys(self) -> list[str]:
-        """Names of what there is."""
+        """Names of the group's quantities."""
         start = len(self._prefix)
         inside = [name[start:] for name in self._source.names if name.startswith(self._prefix)]
         return inside if self._prefix else [name for name in inside if "/" not in name]
@@ -179,7 +181,7 @@ class Run:
         return data, coordinates
 
     def close(self) -> None:
-        """Forget what was read or is in memory since it was written. The file is not held open between reads."""
+        """Give up the arrays in memory, read or kept since they were written. The file is not held open between reads."""
         self._source.forget()
         for group in (self._root, self.history, self.probes):
             group._arrays.clear()
@@ -212,3 +214,13 @@ class Run:
             for name, text in self._summary()
         )
         return f"<table><caption>hydro1d run</caption>{cells}</table>"
+
+
+def open_run(path: str | os.PathLike[str], kept: Callable[[str], np.ndarray | None] | None = None) -> Run:
+    """Open a result, a partial result (its status says `running`) or a checkpoint for reading.
+
+    Raises FileProblem: missing, not HDF5, not hydro1d's, truncated or damaged, of a newer schema version, or with links
+    to other files. Everything but the arrays is compared with its checksum here, each array when it is read.
+    kept: gives the arrays, by path, that the writer of the file still has in memory, None for others.
+    """
+    return Run(FileSource(path, kept=kept), Path(path))

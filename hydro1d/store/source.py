@@ -121,11 +121,11 @@ class FileSource:
             return values.astype(bool) if "truth" in dataset.attrs else values
 
     def forget(self) -> None:
-        """Read everything from now on."""
+        """Give up the arrays that the writer keeps in memory; they are read from the file from now on."""
         self._kept = None
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without what is in memory: another process has the file."""
+        """State for another process: without the arrays in memory, for it reads the file."""
         return {**self.__dict__, "_kept": None}
 
     def rows(self, path: str, step: int) -> Iterator[np.ndarray]:

@@ -1,19 +1,20 @@
-"""Writing a run: everything is kept in memory until a file can be written whole, or a part of a long run must go.
+"""Writing a run: all records go through one working file, whether the run completes, fails or is killed.
 
-Short runs write one file at their end. Long runs append what is full to a working file beside the output and publish
-copies of it as `NAME.partial.h5`, so that a killed run leaves a complete, readable file. Whatever appears under a name
-that a user sees was written under a temporary name, synced and renamed.
+Blocks stay in memory until there are too many of them or something is to be published; then those that are full are
+appended to a working file beside the output. A partial file or a checkpoint is a copy of the working file, completed; the
+result is the working file itself, completed. Whatever appears under a name that a user sees was written under a temporary
+name, synced and renamed, so that a killed run leaves complete, readable files.
 """
 
 from __future__ import annotations
 
 import contextlib
+import importlib
 import os
 import shutil
 import time
 import weakref
 from collections.abc import Mapping
-from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -22,23 +23,20 @@ import numpy as np
 
 from hydro1d.errors import FileProblem
 from hydro1d.store import files
-from hydro1d.store.background import Background
 from hydro1d.store.checkpoint import Checkpoint, replay
-from hydro1d.store.content import Content, More
-from hydro1d.store.layout import MAXIMA, Layout
+from hydro1d.store.layout import Layout
 from hydro1d.store.recorder import Recorder
-from hydro1d.store.records import Block, compress_all
+from hydro1d.store.workers import Workers
 
 KEPT_CHECKPOINTS = 2
-_OVERHEAD = 10.0  # a partial file is written at most every so many times what the last one took
+_OVERHEAD = 10.0  # least time between partial files, over the time that the last one took
 
 
 class Hdf5Sink(Recorder):
     """Takes what the solver hands over and turns it into HDF5 files; see `finish` for what is left at the end.
 
-    deck_text: the deck as written; resolved: the same in SI, JSON-able; attributes: further attributes of the root,
-    numbers or text, those named ``law_hash_…`` being compared on a restart. Raises FileProblem, here and later, when a
-    file cannot be written; whatever stood under the final name is then still there.
+    Arguments beside the path are those of `Recorder`. Raises FileProblem, here and later, when a file cannot be written;
+    whatever stood under the final name is then still there.
 
     Use it as a context manager: what is temporary is removed when the block is left by an exception.
     """
@@ -55,19 +53,16 @@ class Hdf5Sink(Recorder):
         buffer_bytes: int = 32 << 20,
         threads: int | None = None,
     ) -> None:
-        super().__init__(layout)
+        super().__init__(layout, deck_text, resolved, attributes)
         self.path = files.check_target(path)
-        self.content = Content(
-            layout, deck_text, dict(resolved), dict(attributes or {}), datetime.now(UTC).isoformat(timespec="seconds")
-        )
-        self._flush_seconds, self._buffer_bytes, self._threads = flush_seconds, buffer_bytes, threads
+        self._flush_seconds, self._buffer_bytes = flush_seconds, buffer_bytes
         self._working: files.Temporary | None = None
         self._published: tuple[int, int] | None = None
         self._checkpoints: list[Path] = []
-        self._maxima: dict[str, np.ndarray] = {}
         self._due = time.monotonic() + flush_seconds
         self._finalizer: weakref.finalize | None = None
-        self._background = Background(threads)
+        self._workers = Workers(threads)
+        self._imports = True
         files.remove_stale(self.path.parent)
 
     @classmethod
@@ -96,25 +91,21 @@ class Hdf5Sink(Recorder):
     # What the solver calls -----------------------------------------------------------------------------------------
 
     def recorded(self) -> None:
-        """After each record: write when enough has gathered."""
-        self.relieve()  # first, for what must leave memory now is compressed by all threads
-        self._background.compress(self.tables)
+        """Compress the blocks that have become full; where too much is held, move them out of memory."""
+        fresh = [table for table in self.tables if table.compress(self._workers.pool)]
+        if fresh and sum(table.nbytes() for table in self.tables) > self._buffer_bytes:
+            with files.explained("write", self.path):
+                self._append()
+            for table in self.tables:
+                table.give_up()
 
     def flush(self) -> None:
         """Publish a partial file when enough time has passed since the last."""
+        if self._imports and self._workers.pool is not None:  # h5py, while the time loop needs no interpreter
+            self._workers.pool.submit(importlib.import_module, "hydro1d.store.image")
+        self._imports = False
         if time.monotonic() > self._due:
             self.publish_partial()
-
-    def relieve(self) -> None:
-        """Move what is full out of memory when there is too much of it; numbers that are compressed go first."""
-        if self._holds_too_much():
-            for table in self.tables:
-                table.forget()
-            if self._holds_too_much():
-                self._drain()
-
-    def _holds_too_much(self) -> bool:
-        return sum(table.nbytes() for table in self.tables) > self._buffer_bytes
 
     def checkpoint(self, state: Any) -> Path:
         """Write `NAME.checkpoint-<cycle>.h5`: all records and `state.arrays()`; keeps the last two of this run."""
@@ -129,15 +120,11 @@ class Hdf5Sink(Recorder):
         self._checkpoints = self._checkpoints[-KEPT_CHECKPOINTS:]
         return target
 
-    def maxima(self, zone_maxima: Mapping[str, np.ndarray]) -> None:
-        """Largest strain and stress of each zone, at the end."""
-        self._maxima = {name: np.array(zone_maxima[name], dtype=np.float64) for name in MAXIMA if name in zone_maxima}
-
     # Files -----------------------------------------------------------------------------------------------------------
 
     @property
     def partial_path(self) -> Path:
-        """Where a run that has not finished leaves what it has."""
+        """File of a run that has not finished."""
         return files.sibling(self.path, "partial")
 
     def publish_partial(self) -> None:
@@ -162,15 +149,13 @@ class Hdf5Sink(Recorder):
             self._publish(target, status, attributes, last=True)
         finally:
             self.abort()
-        for table in self.tables:
-            table.drop_pieces()
         if target != self.partial_path:
             self._remove_partial()
         return target
 
     def abort(self) -> None:
         """Remove what is temporary. Partial file and checkpoints stay."""
-        self._background.close()
+        self._workers.close()
         if self._finalizer is not None:
             self._finalizer()
         self._working = None
@@ -185,32 +170,20 @@ class Hdf5Sink(Recorder):
 
     # Inside ----------------------------------------------------------------------------------------------------------
 
-    def _temporary(self) -> files.Temporary:
-        return files.Temporary(self.path.parent)
-
-    def _compress(self, tails: bool) -> list[tuple[Block | None, list[int]]]:
-        """What the thread beside the loop has not done yet, by all threads; see `compress_all`."""
-        self._background.wait()
-        return compress_all(self.tables, tails, alone=self._working is None, threads=self._threads)
-
-    def _drain(self) -> None:
-        """Move all full blocks to the working file."""
+    def _append(self, last: bool = False) -> files.Temporary:
+        """The working file, created when first needed, with all full blocks; those of the `last` call `image.complete` writes."""
         from hydro1d.store import image  # h5py, which has been imported beside the loop
 
-        self._compress(tails=False)
-        with files.explained("write", self.path):
-            if self._working is None:
-                self._working = self._temporary()
-                self._finalizer = weakref.finalize(self, files.Temporary.discard, self._working)
-                self._working.append(image.empty(self.content, self.tables))
-            for table in self.tables:
-                table.forget()
-            size = sum(table.nbytes() for table in self.tables)
-            self._working.reserve(size + image.MARGIN)
-            with image.opened(self._working.path) as file:
-                image.write_blocks(file, self.tables)
-        for table in self.tables:
-            table.blocks.clear()
+        if self._working is None:
+            if last:
+                for table in self.tables:
+                    table.shrink_chunk()
+            self._working = files.Temporary(self.path.parent)
+            self._finalizer = weakref.finalize(self, files.Temporary.discard, self._working)
+            self._working.append(image.empty(self))
+        if not last:
+            image.append(self._working, self.tables)
+        return self._working
 
     def _publish(
         self,
@@ -221,32 +194,23 @@ class Hdf5Sink(Recorder):
         last: bool = False,
     ) -> tuple[int, int]:
         """Write all records and rename the file to `target`; returns the file's identity."""
-        if self._working is not None and any(table.blocks for table in self.tables):
-            self._drain()
-        from hydro1d.store import image  # as in `_drain`
+        from hydro1d.store import image  # as in `_append`
 
-        tails = self._compress(tails=True)
-        more = More({**attributes, "status": status}, self._maxima, dict(state or {}))
-        temporary = None
-        try:
-            with files.explained("write", target):
-                files.refuse_foreign(target)
-                if self._working is None:
-                    temporary = self._temporary()
-                    for part in image.whole(self.content, self.tables, tails, more):
-                        temporary.append(part)
-                else:
-                    temporary = self._working if last else self._copy()
-                    image.complete(temporary, self.content, self.tables, tails, more)
+        with files.explained("write", target):
+            files.refuse_foreign(target)
+            working = self._append(last)
+            temporary = working if last else self._copy(working)
+            try:
+                image.complete(temporary, self, {**attributes, "status": status}, state or {}, self._workers.pool)
                 return temporary.commit(target)
-        finally:
-            if temporary is not None and temporary is not self._working:
-                temporary.discard()
+            finally:
+                if temporary is not working:
+                    temporary.discard()
 
-    def _copy(self) -> files.Temporary:
-        copy = self._temporary()
+    def _copy(self, working: files.Temporary) -> files.Temporary:
+        copy = files.Temporary(self.path.parent)
         try:
-            shutil.copyfile(self._working.path, copy.path)  # type: ignore[union-attr]
+            shutil.copyfile(working.path, copy.path)
         except BaseException:
             copy.discard()
             raise

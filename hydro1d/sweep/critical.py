@@ -23,7 +23,7 @@ Evaluation = tuple[float, float, bool, float, str]  # along, value, answer, quan
 
 @dataclass(frozen=True)
 class Search:
-    """What `critical` and `trace` look for; see there."""
+    """Arguments of `critical` and `trace`; see there."""
 
     data: Mapping[str, Any]
     folder: str

@@ -1,4 +1,4 @@
-"""Where a yes/no answer changes along one number."""
+"""Bisection for the number at which a yes/no answer changes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hydro1d.errors import Hydro1dError
 
 
 class NoFlip(Hydro1dError):
-    """The answer is the same all over the bracket."""
+    """The answer is the same at every number tried in the bracket."""
 
     exit_code = 2
 

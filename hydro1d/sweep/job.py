@@ -77,7 +77,7 @@ def evaluate(job: Job, asked_to_stop: Callable[[], bool] = lambda: False) -> Row
     row: Row = {"status": ending.status, "error": ending.message, "cycles": ending.cycles}
     row |= nothing
     row |= {name: float(parse_outcome(name).of(run, deck)) for name in job.outcomes}
-    if ending.status != "failed":  # a quantity of an outcome's name knows more: it is NaN where nothing is decided
+    if ending.status != "failed":  # the quantity named like the outcome is NaN where the run decides nothing
         row |= {name: parse_quantity(name).take(run, deck) for name in job.quantities}
     return row
 
@@ -132,9 +132,9 @@ class Stop:
         self._event = threading.Event()
 
     def set(self) -> None:
-        """Ask all to stop."""
+        """Ask every worker to stop."""
         self._event.set()
 
     def __call__(self) -> bool:
-        """Whether it was set."""
+        """Whether the workers were asked to stop."""
         return self._event.is_set()

@@ -1,4 +1,4 @@
-"""SWEEP.toml. Its mistakes are told like a deck's: all at once, each with its place."""
+"""SWEEP.toml. Mistakes are reported as for a deck: all in one message, each with its line."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError, FileProblem, Problem
 from hydro1d.sweep.base import base_data, check_key
 from hydro1d.sweep.job import Job
-from hydro1d.sweep.plan import MOST_RUNS, Parameter, Plan, Sweep, parameter_problems, plan_problems, quantity_problems
+from hydro1d.sweep.plan import MAX_RUNS, Parameter, Plan, Sweep, parameter_problems, plan_problems, quantity_problems
 
 _Part = TypeVar("_Part", bound=Component)
 
@@ -25,7 +25,7 @@ class _File(Component):
     deck: str = Field(..., description="the base deck's file, relative to this one")
     set: tuple[str, ...] = Field((), description="overrides for every run, such as layer[0].zones=200")
     plan: Plan = Field("grid", description="how parameters combine")
-    samples: int | None = Field(None, ge=1, le=MOST_RUNS, description="number of samples")
+    samples: int | None = Field(None, ge=1, le=MAX_RUNS, description="number of samples")
     seed: int = Field(0, ge=0, description="seed of the samples")
     quantities: tuple[str, ...] = Field(..., min_length=1, description="quantities to take from each run")
 

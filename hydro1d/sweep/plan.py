@@ -19,7 +19,7 @@ from hydro1d.errors import DeckError
 from hydro1d.sweep.base import base_data, check_key, si, unit_of, value_problem
 from hydro1d.sweep.job import Job, override
 
-MOST_RUNS = 1_000_000
+MAX_RUNS = 1_000_000
 SAMPLERS = ("sobol", "halton", "latin-hypercube", "random")
 Plan = Literal["grid", "zip", "sobol", "halton", "latin-hypercube", "random"]
 
@@ -35,7 +35,7 @@ class Parameter(Component):
     values: tuple[Any, ...] | None = Field(None, description="a list of values")
     first: Any = Field(None, description="where a range begins, a number or a text with a unit")
     last: Any = Field(None, description="where it ends")
-    count: int | None = Field(None, ge=1, le=MOST_RUNS, description="number of values in the range")
+    count: int | None = Field(None, ge=1, le=MAX_RUNS, description="number of values in the range")
     spacing: Literal["linear", "log"] = Field("linear", description="how the range is divided")
     integer: bool = Field(False, description="round the values of a range to integers")
 
@@ -73,7 +73,7 @@ class Parameter(Component):
 
     @property
     def label(self) -> str:
-        """Name of its column."""
+        """Name of the parameter's column in the table."""
         return self.column or self.keys[0]
 
     @property
@@ -140,7 +140,7 @@ class Sweep:
         return sweep
 
     def problems(self) -> list[Finding]:
-        """What is wrong between the parts."""
+        """Problems between parameters, plan and quantities."""
         found = plan_problems(self, self.parameters)
         found += quantity_problems(self.quantities)
         return found + parameter_problems(self, self.parameters)
@@ -166,7 +166,7 @@ class Sweep:
         return units
 
     def jobs(self) -> list[Job]:
-        """The runs to do."""
+        """All runs of the sweep, in the table's order."""
         jobs = []
         for point in self.points():
             own = [override(key, value) for p, value in zip(self.parameters, point, strict=True) for key in p.keys]
@@ -219,8 +219,8 @@ def plan_problems(sweep: Sweep, parameters: Sequence[Parameter | None]) -> list[
 def _size_problems(sweep: Sweep, lengths: list[int]) -> list[Finding]:
     if sweep.plan == "zip" and len(set(lengths)) > 1:
         return [Finding(("plan",), f'plan = "zip" needs lists of one length, not {", ".join(map(str, lengths))}')]
-    if sweep.plan == "grid" and int(np.prod(np.array(lengths, dtype=float))) > MOST_RUNS:
-        return [Finding(("plan",), f"the grid has more than {MOST_RUNS} points")]
+    if sweep.plan == "grid" and int(np.prod(np.array(lengths, dtype=float))) > MAX_RUNS:
+        return [Finding(("plan",), f"the grid has more than {MAX_RUNS} points")]
     return []
 
 

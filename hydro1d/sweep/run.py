@@ -17,6 +17,9 @@ from hydro1d.sweep.plan import Sweep
 from hydro1d.sweep.table import Column, Table
 from hydro1d.threads import threads_here
 
+# Folders whose code takes no part in a run of a sweep.
+_NO_PART = ("analytic", "benchmarks", "cli", "fit", "plot", "report", "studies", "templates", "verify")
+
 
 def run_sweep(
     sweep: Sweep,
@@ -91,7 +94,6 @@ def _result(future: Future) -> dict[str, Any]:
 
 def digest(sweep: Sweep) -> str:
     """What a sweep's rows depend on, as one text: its jobs, its laws, and this version of hydro1d."""
-    import hydro1d
     from hydro1d.jit.build import fingerprint
 
     jobs = [(job.overrides, job.quantities) for job in sweep.jobs()]
@@ -99,12 +101,15 @@ def digest(sweep: Sweep) -> str:
         laws = [fingerprint(type(layer.law)) for layer in Job(sweep.data, sweep.folder, sweep.overrides).deck().layers]
     except DeckError:
         laws = []
-    package = Path(hydro1d.__file__).parent
-    parts = ("kernels", "solver", "laws", "boundaries", "loads", "components", ".")
-    sources = [path for part in parts for path in sorted((package / part).glob("*.py"))]
-    code = hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()
-    content = json.dumps([sweep.data, sweep.folder, jobs, laws, code], sort_keys=True, default=str)
+    content = json.dumps([sweep.data, sweep.folder, jobs, laws, _code()], sort_keys=True, default=str)
     return hashlib.sha256(content.encode()).hexdigest()
+
+
+def _code() -> str:
+    """Hash of the package's source files that take part in a run and in the quantities taken from it."""
+    package = Path(__file__).parents[1]
+    sources = [path for path in sorted(package.rglob("*.py")) if path.relative_to(package).parts[0] not in _NO_PART]
+    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()
 
 
 def _table(sweep: Sweep, rows: list[dict[str, Any]]) -> Table:

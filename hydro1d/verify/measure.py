@@ -13,14 +13,14 @@ from hydro1d.boundaries.base import Boundary
 from hydro1d.deck import Layer
 from hydro1d.errors import BreakdownError
 from hydro1d.solver.column import Column, build_column
-from hydro1d.solver.driver import Frame, Outcome, solve
-from hydro1d.solver.state import State as SolverState
+from hydro1d.solver.driver import Outcome, solve
+from hydro1d.solver.sink import Frame, Sink
 
 FRONT_SHARE = 1e-4  # of the stress jump: where q has fallen below it the front has passed
 START_UP = 5  # zones at the loaded end whose medians are left out; `worst` has them
 
 
-class Recording:
+class Recording(Sink):
     """A sink that keeps profiles and history; ``recording["momentum"]`` is a column of the history."""
 
     def __init__(self, column: Column) -> None:
@@ -38,15 +38,6 @@ class Recording:
         """Keep rows of history and probes."""
         self._blocks.append(np.array(rows))
         self._probes.append(np.array(probes))
-
-    def flush(self) -> None:
-        """Nothing to write."""
-
-    def checkpoint(self, state: SolverState) -> None:
-        """Nothing to keep."""
-
-    def maxima(self, zone_maxima: dict[str, np.ndarray]) -> None:
-        """Nothing to keep."""
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A column of the history."""

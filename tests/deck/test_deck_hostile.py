@@ -18,9 +18,9 @@ from hydro1d.components.units import shorten
 from hydro1d.deck import Deck, load_deck
 from hydro1d.errors import DeckError, Problem
 
-LONGEST = 10.0  # seconds of processor time for one deck
-MOST_MEMORY = 512 << 20  # bytes that the process may grow by at its worst moment
-MOST_TEXT = 100_000  # characters of a message
+MAX_SECONDS = 10.0  # seconds of processor time for one deck
+MAX_MEMORY = 512 << 20  # bytes that the process may grow by at its worst moment
+MAX_TEXT = 100_000  # characters of a message
 # A message without a list of what is allowed says in its own words what the rule is, or what went wrong.
 RULE = re.compile(
     "must|needs|never|neither|rise|steeper|raised|exactly|not UTF-8|no row|does not|cannot|is not|no size|="
@@ -51,7 +51,7 @@ def judge(deck: Hostile, path: Path) -> str:
     try:
         return "valid" if isinstance(load_deck(source, deck.overrides), Deck) else "not a deck"
     except DeckError as error:
-        if len(str(error)) > MOST_TEXT or not str(error):
+        if len(str(error)) > MAX_TEXT or not str(error):
             return f"a message of {len(str(error))} characters"
         lacking = [f"{found}: {problem}" for problem in error.problems if (found := complain(problem))]
         return lacking[0] if lacking else "refused"
@@ -75,7 +75,7 @@ def campaign(seeds: range, path: Path) -> Counter:
     for seed, kind, word in bad:
         print(f"number {seed}, {kind}: {word}")
     assert not bad, bad[:20]
-    assert slowest[0] < LONGEST, slowest
+    assert slowest[0] < MAX_SECONDS, slowest
     return words
 
 
@@ -91,4 +91,4 @@ def test_hostile_decks(tmp_path, count):
     grown = peak() - before
     print(f"memory grew by {grown / 2**20:.0f} MB at most")
     assert words["valid"] > count // 100 and words["refused"] > count // 2
-    assert grown < MOST_MEMORY
+    assert grown < MAX_MEMORY

@@ -79,7 +79,7 @@ def test_chain_and_continuum_disagree():
 
 
 def test_masses_that_collide_hide_no_enhancement():
-    """The first spring sees 3000 P. The support, which feels 1 to 10 P, is no herald of a wave."""
+    """The first spring sees 3000 P. The support, which feels 1 to 10 P, is no precursor of a wave."""
     pulse = (5e6, 1.2 * foam.eq30(5e6))
     row = evaluate_at(
         chain("plastic", 10, *PLASTIC), *pulse, ("enhancement", "peak_stress"), ("fully_crushed", "enhanced")

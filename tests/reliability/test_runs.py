@@ -26,6 +26,7 @@ from hydro1d.loads.rectangular import Rectangular
 from hydro1d.scheme.viscosity import Viscosity
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
+from hydro1d.solver.sink import Sink
 from hydro1d.variables import HISTORY
 
 DECK = (
@@ -65,16 +66,11 @@ def command(*arguments, **options):
     )
 
 
-class EnergyErrors:
+class EnergyErrors(Sink):
     """A sink that keeps the energy error alone."""
 
     def __init__(self):
         self.errors = []
-
-    def profile(self, frame): ...
-    def flush(self): ...
-    def checkpoint(self, state): ...
-    def maxima(self, zone_maxima): ...
 
     def history(self, rows, probes):
         self.errors += rows[:, ENERGY_ERROR].tolist()

@@ -13,13 +13,14 @@ from hydro1d.loads.constant import Constant
 from hydro1d.loads.rectangular import Rectangular
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
+from hydro1d.solver.sink import Sink
 
 ROHACELL = {"density": 51.6, "modulus": 22e6, "plateau_stress": 0.8e6, "densification_strain": 0.689}
 FOAM = EPPH(**ROHACELL, shock_slope=0.00105)
 PULSE = Pressure(pulse=Rectangular(peak=3.6e6, duration=1.53e-3))
 
 
-class Kept:
+class Kept(Sink):
     """Keeps everything that the solver hands over."""
 
     def __init__(self):
@@ -31,9 +32,6 @@ class Kept:
     def history(self, rows, probes):
         self.rows.append(rows)
         self.probes.append(probes)
-
-    def flush(self):
-        pass
 
     def checkpoint(self, state):
         self.states.append(state.copy())

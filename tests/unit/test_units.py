@@ -267,12 +267,12 @@ def test_csv_that_is_no_text(tmp_path):
 
 def test_csv_too_large(tmp_path, monkeypatch):
     (tmp_path / "curve.csv").write_text("0,0\n1,1\n2,2\n")
-    monkeypatch.setattr("hydro1d.components.tables.LONGEST_TABLE", 2)
+    monkeypatch.setattr("hydro1d.components.tables.MAX_ROWS", 2)
     with pytest.raises(TableError, match="more than 2 rows"):
         read_table("curve.csv", ("1", "Pa"), tmp_path)
     with pytest.raises(TableError, match="has 3 rows"):
         read_table([[0, 0], [1, 1], [2, 2]], ("1", "Pa"), tmp_path)
-    monkeypatch.setattr("hydro1d.components.tables.LARGEST_FILE", 3)
+    monkeypatch.setattr("hydro1d.components.tables.MAX_FILE_BYTES", 3)
     with pytest.raises(TableError, match="larger than"):
         read_table("curve.csv", ("1", "Pa"), tmp_path)
 

@@ -25,11 +25,12 @@ from hydro1d.scheme.viscosity import Viscosity
 from hydro1d.solver.column import build_column
 from hydro1d.solver.driver import solve
 from hydro1d.solver.program import Program
+from hydro1d.solver.sink import Sink
 
 PRESSURE = 4.5 * cases.FOAM["plateau_stress"]
 
 
-class Last(measure._Nowhere):
+class Last(Sink):
     """Keeps the last profile."""
 
     def profile(self, frame) -> None:

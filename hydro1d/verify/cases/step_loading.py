@@ -16,7 +16,7 @@ from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.deck import Layer
 from hydro1d.loads.constant import Constant
-from hydro1d.solver.driver import Frame
+from hydro1d.solver.sink import Frame
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import PLATEAU, Material

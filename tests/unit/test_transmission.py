@@ -8,7 +8,7 @@ import pytest
 
 import hydro1d
 from hydro1d.analysis.arrival import arrival_of, elastic_speed, front_speed
-from hydro1d.analysis.transmission import ends_of, ends_of_data, verdict_of
+from hydro1d.analysis.transmission import ends_of, ends_of_data, transmission_of
 from hydro1d.analytic import EPPH, pressure_step
 from hydro1d.cli import main
 
@@ -32,14 +32,14 @@ def test_a_decided_run_says_no_more_than_before(tmp_path, monkeypatch, capsys):
     assert "support stress: attenuated, 0.4815 times" in out and "not over" not in out
 
 
-def test_no_verdict_before_the_wave_has_arrived(tmp_path, monkeypatch, capsys):
+def test_undecided_before_the_wave_has_arrived(tmp_path, monkeypatch, capsys):
     out = said(tmp_path, monkeypatch, capsys, "run", "time.end=1e-3")
     undecided = "support stress: the wave has not reached the support; attenuated or enhanced is not decided yet"
     assert f"{undecided} (applied peak 3.6 MPa)\n" in out
     assert f"not over at t = 1 ms: the pressure still acts and the column is still being crushed; {LATER}\n" in out
 
 
-def test_a_verdict_that_may_change_says_so(tmp_path, monkeypatch, capsys):
+def test_a_transmission_that_may_change_says_so(tmp_path, monkeypatch, capsys):
     out = said(tmp_path, monkeypatch, capsys, "run", "time.end=2e-3")
     assert "support stress: attenuated so far, 0.2" in out
     assert f"not over at t = 2 ms: the column is still being crushed; {LATER}" in out
@@ -47,33 +47,33 @@ def test_a_verdict_that_may_change_says_so(tmp_path, monkeypatch, capsys):
 
 def test_what_acts_is_known_without_the_laws_of_the_deck():
     run = hydro1d.run(hydro1d.load_deck(DECK, ["time.end=1e-3"]))
-    assert "the pressure still acts" in verdict_of(run).pending
+    assert "the pressure still acts" in transmission_of(run).pending
     run.deck["material"]["foam"]["law"] = "mine.py:Mine"
-    assert verdict_of(run).pending[0] == "the pressure still acts"
+    assert transmission_of(run).pending[0] == "the pressure still acts"
     run.deck["left"]["pulse"] = "mine.py:Pulse"
-    assert verdict_of(run).pending == ("the column is still being crushed",)
+    assert transmission_of(run).pending == ("the column is still being crushed",)
 
 
 def test_a_peak_that_still_rises_is_named():
     run = hydro1d.run(hydro1d.load_deck(DECK, ["time.end=1.5e-3"]))  # the foot of the wave is at the wall
-    assert "the peak on the support still rises" in verdict_of(run).pending
+    assert "the peak on the support still rises" in transmission_of(run).pending
 
 
 def test_enhanced_is_decided_as_soon_as_it_is_seen():
     elastic = 'material.foam={law="elastic", density=51.6, modulus="22 MPa"}'
     deck = hydro1d.load_deck(DECK, [elastic, "left.duration=1", "time.end=2.5e-3"])
-    verdict = verdict_of(hydro1d.run(deck), deck)
-    assert verdict.ratio == pytest.approx(2.0, abs=0.1)  # a step that a wall reflects, and what rings
-    assert (verdict.word, verdict.pending) == ("enhanced", ("the pressure still acts",))
+    transmission = transmission_of(hydro1d.run(deck), deck)
+    assert transmission.ratio == pytest.approx(2.0, abs=0.1)  # a step that a wall reflects, and what rings
+    assert (transmission.word, transmission.pending) == ("enhanced", ("the pressure still acts",))
 
 
 @pytest.mark.parametrize("zones", [20, 300])
 @pytest.mark.parametrize(("share", "arrived"), [(0.3, False), (0.6, False), (1.1, True)])
-def test_the_herald_of_a_wave_is_no_wave(zones, share, arrived):
+def test_the_precursor_of_a_wave_is_no_wave(zones, share, arrived):
     """In a column of twenty zones it runs ahead by a third of the column."""
     run = hydro1d.run(hydro1d.load_deck(DECK, [f"layer[0].zones={zones}", f"time.end={share * WAVE}"]))
     assert run.history["peak_right_stress"][-1] > 0.0
-    assert (verdict_of(run).felt > 0.0) == arrived
+    assert (transmission_of(run).transmitted > 0.0) == arrived
 
 
 def test_a_load_without_pressure(tmp_path, monkeypatch, capsys):
@@ -116,8 +116,8 @@ def test_the_estimate_is_that_of_the_jump_conditions():
 
 def test_the_wave_arrives_when_it_is_said_to():
     run = hydro1d.run(hydro1d.load_deck(DECK, ["layer[0].zones=400", "time.end=2e-3"]))
-    time, felt = run.history["time"], run.history["right_stress"]
-    arrived = float(time[np.argmax(felt > 0.4e6)])
+    time, transmitted = run.history["time"], run.history["right_stress"]
+    arrived = float(time[np.argmax(transmitted > 0.4e6)])
     assert arrived == pytest.approx(WAVE, rel=0.01)  # a wave of about five zones of 400
 
 
