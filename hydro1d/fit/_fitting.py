@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from hydro1d.analysis.theory import CURVES
 from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, Hydro1dError
 from hydro1d.fit._confidence import Confidence, confidence
 from hydro1d.fit._curve import MeasuredCurve, checked, read_measured
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
-from hydro1d.fit._models import MODELS, Model, Parameter
+from hydro1d.fit._models import MODELS, NEED_DENSITY, Parameter
 
 _MOST_POINTS = 1500
 _PENALTY = 1e3
@@ -47,7 +48,7 @@ class Fit:
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """The fitted loading curve, Pa."""
-        return _stress(MODELS[self.law], np.asarray(strain, dtype=float), self.density, list(self.values.values()))
+        return _stress(self.law, np.asarray(strain, dtype=float), self.density, self.values)
 
     def table(self) -> str:
         """The parameters with their intervals as text."""
@@ -131,16 +132,16 @@ def fit_curve(
             f"no fit for the law {law[:60]!r}{suggestion(law, fittable())}; there are {', '.join(MODELS)}; "
             'hydro1d laws fit --table writes a curve for law = "table"'
         )
-    model = MODELS[law]
-    if model.needs_density and density is None:
+    if law in NEED_DENSITY and density is None:
         raise DeckError(f"{law} needs the density: its hardening (Eq. 39) depends on it")
     if isinstance(curve, str | os.PathLike):
         curve, notes = read_measured(Path(curve), largest_strain, strain_unit, stress_unit)
     else:
         curve, notes = checked(curve.strain, curve.stress, largest_strain), ()
     found = energy_efficiency(curve)
-    parameters = model.parameters(curve, found, density or 1.0)
-    difference = _difference(model, _thinned(curve), density, found.plateau_stress)
+    parameters = MODELS[law](curve, found)
+    names = [parameter.name for parameter in parameters]
+    difference = _difference(law, names, _thinned(curve), density, found.plateau_stress)
     values, jacobian = _solve(difference, parameters)
     trust = confidence(parameters, values, jacobian, difference)
     return _result(law, curve, parameters, values, difference(values), trust, density, found, notes)
@@ -151,19 +152,19 @@ def _thinned(curve: MeasuredCurve) -> MeasuredCurve:
     return MeasuredCurve(curve.strain[::every], curve.stress[::every])
 
 
-def _stress(model: Model, strain: np.ndarray, density: float | None, values: list[float]) -> np.ndarray:
-    return np.asarray(model.curve(density or 1.0, *values).stress(strain), dtype=float)
+def _stress(law: str, strain: np.ndarray, density: float | None, values: Mapping[str, float]) -> np.ndarray:
+    return np.asarray(CURVES[law](density=density or 1.0, **values).stress(strain), dtype=float)
 
 
 def _difference(
-    model: Model, curve: MeasuredCurve, density: float | None, plateau: float
+    law: str, names: Sequence[str], curve: MeasuredCurve, density: float | None, plateau: float
 ) -> Callable[[np.ndarray], np.ndarray]:
     """The function that is minimised: parameters -> law − measured, weighted."""
     weight = 1.0 / np.hypot(plateau, curve.stress)
 
     def difference(values: np.ndarray) -> np.ndarray:
         try:
-            gap = _stress(model, curve.strain, density, list(values)) - curve.stress
+            gap = _stress(law, curve.strain, density, dict(zip(names, values, strict=True))) - curve.stress
             return np.clip(gap * weight, -_PENALTY, _PENALTY)
         except ValueError:  # parameters that make no curve
             return np.full(len(curve.strain), _PENALTY)
@@ -207,21 +208,21 @@ def _result(
     found: Efficiency,
     notes: tuple[str, ...],
 ) -> Fit:
-    names = [parameter.name for parameter in parameters]
+    named = dict(zip([parameter.name for parameter in parameters], map(float, values), strict=True))
     half, vague, ended = trust
-    residuals = _stress(MODELS[law], curve.strain, density, list(values)) - curve.stress
+    residuals = _stress(law, curve.strain, density, named) - curve.stress
     return Fit(
         law,
         curve,
-        dict(zip(names, map(float, values), strict=True)),
-        {name: (float(v - h), float(v + h)) for name, v, h in zip(names, values, half, strict=True)},
+        named,
+        {name: (float(v - h), float(v + h)) for (name, v), h in zip(named.items(), half, strict=True)},
         {parameter.name: parameter.unit for parameter in parameters},
         residuals,
         float(np.sqrt(np.mean(residuals**2))),
         float(np.sqrt(np.mean(differences**2))),
         found,
         density,
-        tuple(name for name, is_vague in zip(names, vague, strict=True) if is_vague),
-        tuple(name for name, is_ended in zip(names, ended, strict=True) if is_ended),
+        tuple(name for name, is_vague in zip(named, vague, strict=True) if is_vague),
+        tuple(name for name, is_ended in zip(named, ended, strict=True) if is_ended),
         notes,
     )

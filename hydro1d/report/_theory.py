@@ -10,6 +10,7 @@ import numpy as np
 
 from hydro1d import analytic
 from hydro1d.analysis.fronts import front_path
+from hydro1d.analysis.theory import curve_of
 from hydro1d.plot._units import Scale, scale_for
 
 if TYPE_CHECKING:
@@ -91,38 +92,6 @@ _UNLOADING = (
     "hears of a change at its other end only when a wave has caught up with it. Fronts and times therefore differ by some "
     'per cent, and single stresses by more; unloading_modulus = "rigid" in the deck comes closer to the theory'
 )
-
-
-def curve_of(law: dict[str, Any]) -> analytic.Curve | None:
-    """The loading curve of a law as the deck has it, for those laws that the theory knows."""
-    values = {
-        key: value for key, value in law.items() if isinstance(value, int | float) and not isinstance(value, bool)
-    }
-
-    def take(*names: str) -> list[float]:
-        return [float(values[name]) for name in names]
-
-    plateau = ("plateau_stress", "densification_strain")
-    kind = law.get("law")
-    if kind == "elastic":
-        return analytic.Elastic(*take("density", "modulus"))
-    if kind == "epph":
-        return analytic.EPPH(*take("density", "modulus", *plateau, "shock_slope"))
-    if kind == "epph-tangent":
-        return analytic.TangentEPPH(*take("density", "modulus", *plateau, "beta", "gamma"))
-    if kind == "trilinear":
-        return analytic.Trilinear(*take("density", "modulus", *plateau, "locking_modulus"))
-    if kind == "rppl":
-        density, stress, strain, ratio = take("density", *plateau, "stiffness")
-        return analytic.stiff_rppl(density, stress, strain, ratio * stress)
-    if kind == "eppr":
-        density, modulus, stress, strain, ratio = take("density", "modulus", *plateau, "stiffness")
-        return analytic.stiff_eppr(density, modulus, stress, strain, ratio * stress)
-    if kind == "eph":
-        return analytic.EPH(*take("density", "modulus", "yield_stress", "hardening_modulus"))
-    if kind == "rph":
-        return analytic.RPH(*take("density", "modulus", "plateau_stress", "hardening"))
-    return None
 
 
 def _solve(run: Run, curve: analytic.Curve, length: float) -> Theory | None:
