@@ -31,7 +31,7 @@ def row_text(row: Row) -> str:
             number(row.exact),
             number(row.measured),
             short(row.error),
-            _order(row),
+            order(row),
             limit(row.tolerance),
             verdict(row),
         )
@@ -66,7 +66,8 @@ def limit(value: float) -> str:
     return f"{value:.2g}" if math.isfinite(value) else "–"
 
 
-def _order(row: Row) -> str:
+def order(row: Row) -> str:
+    """The observed order, two digits; nothing where none was asked for."""
     return "" if row.order is None else f"{row.order:.2f}"
 
 
