@@ -17,7 +17,7 @@ from hydro1d.fit._curve import MeasuredCurve, checked, read_measured
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
 from hydro1d.fit._models import MODELS, NEED_DENSITY, Parameter
 
-_MOST_POINTS = 1500
+_MAX_POINTS = 1500
 _PENALTY = 1e3
 _WRONG_SHAPE = 0.1  # weighted rms: machines and foams scatter by less
 
@@ -148,7 +148,7 @@ def fit_curve(
 
 
 def _thinned(curve: MeasuredCurve) -> MeasuredCurve:
-    every = -(-len(curve.strain) // _MOST_POINTS)
+    every = -(-len(curve.strain) // _MAX_POINTS)
     return MeasuredCurve(curve.strain[::every], curve.stress[::every])
 
 

@@ -18,7 +18,7 @@ from hydro1d.laws.table import Table
 _NEAR = 0.005  # of √(plateau² + stress²): how far a straight line between two points may miss those between
 _NOISE = 3.0  # standard deviations that a straight line may miss: steps within them are not the foam's
 _ON_LINE = 0.97  # of the elastic line: a point above is on it
-_FEWEST_ELASTIC = 2  # points before the first corner that make a slope
+_MIN_ELASTIC = 2  # points before the first corner that make a slope
 _UNSETTLED = 0.003  # of strain before the end: a mean over less still has the noise
 _MPA = 1e6
 
@@ -90,7 +90,7 @@ def tabulate(
     kept = first + _corners(strain[first:], stress[first:], near * np.hypot(found.plateau_stress, stress[first:]))
     points = np.column_stack([strain[kept], stress[kept]])
     modulus = max(slope, _least_modulus(points))
-    if np.count_nonzero((curve.strain > 0.0) & (curve.strain < points[0, 0])) < _FEWEST_ELASTIC:
+    if np.count_nonzero((curve.strain > 0.0) & (curve.strain < points[0, 0])) < _MIN_ELASTIC:
         notes = (
             *notes,
             "the curve has hardly a point on its elastic line; the modulus is a guess: put in the right one",

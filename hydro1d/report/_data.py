@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from hydro1d.report._theory import Theory
     from hydro1d.store import Run
 
-MOST_TIMES, MOST_POINTS, MOST_ROWS = 100, 400, 1600
+MAX_TIMES, MAX_POINTS, MAX_ROWS = 100, 400, 1600
 THEORY_POINTS = 48
 QUANTITIES = ("stress", "strain", "velocity")
 
@@ -33,7 +33,7 @@ def _profiles(run: Run, theory: Theory | None) -> dict[str, Any] | None:
         return None
     rows = shown_rows(run)
     zones = len(run["zone_coordinate"])
-    chosen = np.unique(np.linspace(0, zones - 1, min(zones, MOST_POINTS)).round().astype(int))
+    chosen = np.unique(np.linspace(0, zones - 1, min(zones, MAX_POINTS)).round().astype(int))
     length, clock = scale_for("m", run["node_coordinate"]), scale_for("s", time)
     position = run["position"][rows]
     centre = 0.5 * (position[:, :-1] + position[:, 1:])[:, chosen]
@@ -52,14 +52,14 @@ def _profiles(run: Run, theory: Theory | None) -> dict[str, Any] | None:
 def shown_rows(run: Run) -> np.ndarray:
     """Numbers of the profiles that the page holds."""
     stored = len(run.time)
-    return np.unique(np.linspace(0, stored - 1, min(stored, MOST_TIMES)).round().astype(int))
+    return np.unique(np.linspace(0, stored - 1, min(stored, MAX_TIMES)).round().astype(int))
 
 
 def telling_row(run: Run, theory: Theory | None) -> int:
     """Which of the page's profiles to show first.
 
-    The last one at which theory and code solve the same equations; without one, that in which the column is most of
-    two minds: crushed here, not there.
+    The last one at which theory and code solve the same equations; without one, that with the largest standard deviation
+    of the strain, in which one part of the column is crushed and another is not.
     """
     rows = shown_rows(run)
     exact = 0 if theory is None else int(np.sum(run.time[rows] <= theory.exact_until * (1 + 1e-12))) - 1
@@ -184,6 +184,6 @@ def _history(
     scale = scale_for(units, usual)
     series = []
     for name, time, values in curves:
-        x, y = extremes(time, values, MOST_ROWS)
+        x, y = extremes(time, values, MAX_ROWS)
         series.append({"name": name, "x": _floats(x / clock.size), "y": _floats(y / scale.size)})
     return {"label": scale.label(label), "unit": scale.unit, "series": series, "usual": max(usual) / scale.size}

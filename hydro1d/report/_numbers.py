@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from hydro1d.analysis.energy import elastic_energy
 from hydro1d.analysis.openings import find_openings
 from hydro1d.analysis.transmission import NOT_REACHED, Verdict, verdict_of
 from hydro1d.errors import FileProblem
@@ -163,7 +164,7 @@ def energy_numbers(run: Run, deck: Deck | None) -> list[Number]:
     rows.append(
         Number("dissipated in fronts", scale.show(viscous), f"{100 * viscous / gained:.3g} % of the internal gain")
     )
-    stored = elastic_energy(run, deck)
+    stored = _elastic(run, deck)
     if stored is not None:
         rest = gained - viscous - stored
         share = f"{100 * stored / gained:.3g} %"
@@ -172,18 +173,12 @@ def energy_numbers(run: Run, deck: Deck | None) -> list[Number]:
     return rows
 
 
-def elastic_energy(run: Run, deck: Deck | None) -> float | None:
+def _elastic(run: Run, deck: Deck | None) -> float | None:
     """Energy (J/m²) that the column would give back on unloading; None where a law does not tell."""
     if deck is None or len(run.time) == 0 or run.time[-1] < run.history["time"][-1] * (1 - 1e-9):
         return None
-    size = np.diff(run["node_coordinate"])
-    strain, stress, largest = run["strain"][-1], run["stress"][-1], run["largest_strain"][-1]
-    total = 0.0
-    for layer, part in zip(deck.layers, run.layers, strict=True):
-        law = layer.law
-        if getattr(law, "unloading", None) != "elastic" or law.history:
-            return None
-        for zone in range(part.zones.start, part.zones.stop):
-            stiffness = law.point(float(strain[zone]), float(largest[zone]), 0.0, 0.0, ())[2]
-            total += 0.5 * float(stress[zone]) ** 2 / stiffness * float(size[zone])
-    return total
+    laws = [layer.law for layer in deck.layers]
+    if any(getattr(law, "unloading", None) != "elastic" or law.history for law in laws):
+        return None
+    stored = elastic_energy(run, deck)
+    return stored if np.isfinite(stored) else None

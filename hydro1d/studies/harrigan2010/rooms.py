@@ -26,7 +26,7 @@ MODULUS, PLATEAU, DENSITY, LENGTH = foam.MODULUS, foam.PLATEAU, foam.DENSITY, fo
 FASTEST = 1.2  # most by which a step exceeds the one before
 
 # Places in what `march` is told.
-BETA, RATE, START, PLASTIC, LEAST_STRESS, LOCK, PRESSURE, DURATION, END, CFL, UNTIL_SETTLED = range(11)
+BETA, RATE, START, PLASTIC, MIN_STRESS, LOCK, PRESSURE, DURATION, END, CFL, UNTIL_SETTLED = range(11)
 SIGNATURE = "ppppppppi"
 
 
@@ -143,7 +143,7 @@ def press(told: Any, room: Any, least: Any, stress: Any, rigid: Any, count: int)
             stress[i] = top - stiffness * (room[i] - least[i])
         else:
             stress[i], stiffness = stress_and_stiffness(room[i], told)
-        stress[i] = max(stress[i], told[LEAST_STRESS])
+        stress[i] = max(stress[i], told[MIN_STRESS])
         largest = max(largest, stiffness)
         rigid[i] = 1.0 if told[PLASTIC] > 0.0 and room[i] < told[LOCK] else 0.0
     return largest

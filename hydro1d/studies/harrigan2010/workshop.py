@@ -55,7 +55,7 @@ class Picture(NamedTuple):
 
     @property
     def figure(self) -> str:
-        """Its number as in numbers.csv: fig11a is 11a, new2_peak_map is new 2."""
+        """The figure's number as in numbers.csv: fig11a is 11a, new2_peak_map is new 2."""
         kind, number = re.fullmatch(r"(fig|new)0*(\d+[ab]?)(?:_\w+)?", self.name).groups()  # type: ignore[union-attr]
         return number if kind == "fig" else f"new {number}"
 
@@ -180,7 +180,7 @@ def deck_path(name: str) -> Path:
 
 
 def deck_data(name: str) -> dict[str, Any]:
-    """Its data."""
+    """The data of one of the paper's decks, as nested tables."""
     return base_data(deck_path(name))[0]
 
 
@@ -197,7 +197,7 @@ def columns(**named: Sequence[float] | np.ndarray) -> Table:
 
 
 def plain(criterion: str) -> str:
-    """An outcome's name as words."""
+    """The name of an outcome in words, fully_crushed as "fully crushed"."""
     return criterion.replace("_", " ")
 
 

@@ -75,7 +75,7 @@ def rph() -> Material:
 
 
 def eph() -> Material:
-    """Two straight lines: no shock."""
+    """Two straight lines, in which no shock runs."""
     law = EPH(density=DENSITY, modulus=MODULUS, yield_stress=PLATEAU, hardening_modulus=4e6)
     return _material("eph", law, pressures=(1.5, 2.0, 3.0, 4.0), shock=False, zones=240)
 
