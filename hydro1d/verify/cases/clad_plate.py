@@ -21,7 +21,6 @@ STEEL_DENSITY, STEEL_MODULUS, PLATE = 7800.0, 200e9, 2e-3  # a plate of 15.6 kg/
 PEAK = 8e6
 STIFFNESSES = (4000.0, 16000.0, 64000.0)  # in plateau stresses; the last one is within 1 % of the rigid limit
 TIMES = (0.25, 0.5, 0.75)  # of the stopping time
-ROWS = 22
 RAW = "the precursor's velocity √(σP/(K ρ0)), 0.5 m/s at this K, is left out by the rigid theory"
 STIFFEST = f"K = {STIFFNESSES[-1]:g} σP", 1e-2, RAW
 LIMIT = "the line through three stiffnesses in K^(−½), at zero"
@@ -87,6 +86,4 @@ def _figures(table: Table, name: str, exact: CladColumn, runs: list[Recording]) 
     table.panel(f"{name}: convergence", "K/σP", "relative error of u", convergence, log=True)
 
 
-def cases() -> list[Case]:
-    """One case."""
-    return [Case.of("clad-plate", "Plate on R-P-P-L under a pulse", ROWS, _study)]
+CASES = [Case.of("clad-plate", "Plate on R-P-P-L under a pulse", 22, _study)]

@@ -21,7 +21,6 @@ PRESSURE, DURATION, LENGTH = 3.6e6, 1.53e-3, 1.0
 MODULI = (1.5, 5.0, 20.0, 100.0)  # unloading, over E
 STEPS = (2e-3, 3e-3, 4e-3, 5e-3, 5.5e-3)
 WINDOWS = 36  # zones: the integral measure of a front looks twelve zones ahead and behind
-ROWS = 22
 STAGE_1 = "a steady front of stage 1: states to 1e-4, its place to a fraction of a zone of 500"
 RIGID = "the theory unloads rigidly; at 100 E what is left is the elastic recovery of the crushed block"
 WIDTH = "fronts of finite width meet early or late by a zone or two"
@@ -150,6 +149,4 @@ def _figures(
     table.panel(title, x_label, "|ΔX|/L", [line(MODULI, distances, "fronts")], log=True)
 
 
-def cases() -> list[Case]:
-    """One case."""
-    return [Case.of("epph-pulse", "Pressure pulse on E-P-P-H", ROWS, _study)]
+CASES = [Case.of("epph-pulse", "Pressure pulse on E-P-P-H", 22, _study)]

@@ -60,9 +60,7 @@ def _study(table: Table, effort: Effort, material: Material) -> None:
     table.convergence(zones, {"ε": worst[:, 0], "cS": worst[:, 1]}, "worst relative error")
 
 
-def cases() -> list[Case]:
-    """A case a law of the figures."""
-    return [
-        Case.of(f"hugoniot {m.name}", f"Hugoniot, {m.name}", 2 * len(JUMPS) + 2, partial(_study, material=m))
-        for m in (materials.epph(), materials.epph_tangent())
-    ]
+CASES = [
+    Case.of(f"hugoniot {m.name}", f"Hugoniot, {m.name}", 2 * len(JUMPS) + 2, partial(_study, material=m))
+    for m in (materials.epph(), materials.epph_tangent())
+]

@@ -22,7 +22,6 @@ MASS, VELOCITY = 40.0, 100.0
 STIFFNESSES = (1000.0, 4000.0, 16000.0)  # in plateau stresses: the law's default, and what 1 % of the rigid limit takes
 SHARES = (0.1, 0.3, 0.5, 0.7)  # of the stopping displacement
 HALVINGS = 8
-ROWS = 23
 FINITE = "theory of the same finite stiffness (precursor, two fronts): what is left is the numerical front"
 RIGID = "the precursor's velocity √(σP/(K ρ0)) is left out by the rigid theory: 0.35 m/s, 0.35 % of v0, at this K"
 STIFFEST = "K = 16000 σP", 1e-2, RIGID
@@ -145,6 +144,4 @@ def _figures(table: Table, exact: RPPLStriker, run: Recording, errors: np.ndarra
     table.panel("convergence", "K/σP", "error", lines, log=True)
 
 
-def cases() -> list[Case]:
-    """One case."""
-    return [Case.of("rppl-striker", "Striker on R-P-P-L", ROWS, _study)]
+CASES = [Case.of("rppl-striker", "Striker on R-P-P-L", 23, _study)]

@@ -17,7 +17,6 @@ from hydro1d.verify.measure import Recording, simulate
 from hydro1d.verify.rows import Table, line
 
 GAMMA, END, RISE, SPEED = 1.4, 0.7, 0.6, 0.15
-ROWS = 8
 SECOND = (
     "leapfrog and the slope limiter are of second order where the flow is smooth; 1.95 leaves room for the "
     "limiter's clipping"
@@ -103,6 +102,4 @@ def _time_alone(table: Table, boundary: Boundary) -> None:
     table.converges("steps alone: mean change of v, m/s", steps, errors, 2e-6, SECOND, least_order=1.95)
 
 
-def cases() -> list[Case]:
-    """One case."""
-    return [Case.of("smooth", "Smooth compression", ROWS, _study)]
+CASES = [Case.of("smooth", "Smooth compression", 8, _study)]

@@ -181,12 +181,8 @@ def _case(kind: str, material: Material) -> Case:
     return Case(name, title, ABOUT.get(name, ABOUT[kind]), rows, partial(_study, material=material, kind=kind))
 
 
-def cases() -> list[Case]:
-    """A case a law and kind of load, four loads each."""
-    step, piston = "pressure-step", "piston"
-    shocks = materials.with_a_shock()
-    return [
-        *(_case(step, material) for material in shocks),
-        _case(step, materials.eph()),
-        *(_case(piston, material) for material in shocks),
-    ]
+SHOCKS = materials.with_a_shock()
+CASES = [
+    *(_case("pressure-step", material) for material in (*SHOCKS, materials.eph())),
+    *(_case("piston", material) for material in SHOCKS),
+]

@@ -23,7 +23,6 @@ from hydro1d.verify.measure import Recording, simulate
 from hydro1d.verify.rows import Line, Table, line
 
 ROUND_OFF = "an identity of the scheme: round-off alone"
-ROWS = 20
 LENGTH, MASS, TIME = 2.0**3, 2.0**-4, 2.0**5  # new units of length, mass (per area) and time; even powers and odd ones
 LAYERS_MASS = "both halves of every zone belong to a node"
 
@@ -150,6 +149,4 @@ def _study(table: Table, effort: Effort) -> None:
     _units(table, zones)
 
 
-def cases() -> list[Case]:
-    """One case."""
-    return [Case.of("symmetry", "Conservation and symmetry", ROWS, _study)]
+CASES = [Case.of("symmetry", "Conservation and symmetry", 20, _study)]
