@@ -82,6 +82,20 @@ def read_measured(
     return Measured(curve, tuple(notes))
 
 
+def measured(
+    curve: MeasuredCurve | str | os.PathLike[str], largest_strain: float, strain_unit: str, stress_unit: str
+) -> Measured:
+    """The curve itself, checked, or that of a file (`read_measured`). Raises DeckError and FileProblem."""
+    if isinstance(curve, str | os.PathLike):
+        return read_measured(curve, largest_strain, strain_unit, stress_unit)
+    return Measured(checked(curve.strain, curve.stress, largest_strain), ())
+
+
+def density_line(density: float | None) -> str:
+    """The density in a deck; without one, that line is left for the user to fill in."""
+    return f'density = "{density:.6g} kg/m^3"' if density is not None else '# density = "... kg/m^3"   # required'
+
+
 def _turned(strain: np.ndarray, stress: np.ndarray) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Compression positive, whatever the file's sign."""
     if strain[-1] < 0.0 and np.median(strain) < 0.0 and np.median(stress) < 0.0:

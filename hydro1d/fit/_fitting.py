@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from hydro1d.analysis.theory import CURVES
 from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, Hydro1dError
 from hydro1d.fit._confidence import Confidence, confidence
-from hydro1d.fit._curve import MeasuredCurve, checked, read_measured
+from hydro1d.fit._curve import MeasuredCurve, density_line, measured
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
 from hydro1d.fit._models import MODELS, NEED_DENSITY, Parameter
 
@@ -88,9 +87,8 @@ class Fit:
 
     def deck_fragment(self, material: str = "foam", density: float | None = None) -> str:
         """A [material] table for a deck; without a density that line is left for the user to fill in."""
-        known = self.density if density is None else density
-        given = f'density = "{known:.6g} kg/m^3"' if known is not None else '# density = "... kg/m^3"   # required'
-        lines = [f"[material.{material}]", f'law = "{self.law}"', given]
+        known = density_line(self.density if density is None else density)
+        lines = [f"[material.{material}]", f'law = "{self.law}"', known]
         for name, value in self.values.items():
             doubt = self.doubt(name).removeprefix("none: ")
             lines.append(f"{name} = {_in_deck(value, self.units[name])}" + (f"   # {doubt}" if doubt else ""))
@@ -134,10 +132,7 @@ def fit_curve(
         )
     if law in NEED_DENSITY and density is None:
         raise DeckError(f"{law} needs the density: its hardening (Eq. 39) depends on it")
-    if isinstance(curve, str | os.PathLike):
-        curve, notes = read_measured(Path(curve), largest_strain, strain_unit, stress_unit)
-    else:
-        curve, notes = checked(curve.strain, curve.stress, largest_strain), ()
+    curve, notes = measured(curve, largest_strain, strain_unit, stress_unit)
     found = energy_efficiency(curve)
     parameters = MODELS[law](curve, found)
     names = [parameter.name for parameter in parameters]

@@ -121,8 +121,12 @@ def _curves(run: Run, name: str) -> list[tuple[str, np.ndarray, np.ndarray]]:
         where = [scale.show(float(x)) for x in run.probes["probe"]]
         found = run[name]
         return [(f"{words(name[7:])} at X = {text}", run.probes["time"], found[:, k]) for k, text in enumerate(where)]
-    values = front_path(run, name) if name in FRONTS else run.history[name]
-    return [(words(name), run.history["time"], values)]
+    return [(words(name), run.history["time"], recorded(run, name))]
+
+
+def recorded(run: Run, name: str) -> np.ndarray:
+    """A quantity of the history; of a front, its path."""
+    return front_path(run, name) if name in FRONTS else run.history[name]
 
 
 def _asked(run: Run, quantities: Sequence[str]) -> dict[str, tuple[str, ...]]:

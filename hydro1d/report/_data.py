@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydro1d.analysis.fronts import front_path
 from hydro1d.plot._base import PALETTE
-from hydro1d.plot._frames import FRONTS
-from hydro1d.plot._histories import END_STRESSES, PANELS, applied_pressures, extremes
+from hydro1d.plot._histories import END_STRESSES, PANELS, applied_pressures, extremes, recorded
 from hydro1d.plot._units import Scale, scale_for, words
 
 if TYPE_CHECKING:
@@ -137,17 +135,13 @@ def _histories(run: Run) -> dict[str, Any]:
     clock = scale_for("s", run.history["time"])
     panels = []
     for label, names in PANELS.items():
-        found = [(words(name), run.history["time"], _column(run, name)) for name in names if name in run.history]
+        found = [(words(name), run.history["time"], recorded(run, name)) for name in names if name in run.history]
         if any(name in END_STRESSES for name in names):
             found += applied_pressures(run)
         panels.append(_history(label, found, run.describe(f"history/{names[0]}").units, clock))
     panels += _shares(run, clock)
     panels += _probes(run, clock)
     return {"xlabel": clock.label("time t"), "clock": clock.unit, "panels": [panel for panel in panels if panel]}
-
-
-def _column(run: Run, name: str) -> np.ndarray:
-    return front_path(run, name) if name in FRONTS else run.history[name]
 
 
 def _shares(run: Run, clock: Scale) -> list[dict[str, Any] | None]:

@@ -9,7 +9,8 @@ import numpy as np
 
 from hydro1d import analytic
 from hydro1d.studies.harrigan2010 import foam
-from hydro1d.studies.harrigan2010.workshop import BLUE, GREEN, RED, Workshop, columns, new_figure
+from hydro1d.studies.harrigan2010.colors import BLUE, GREEN, RED
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure
 
 MEGA = 1e6
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -99,6 +100,19 @@ def critical(
         return Band(math.nan, math.nan)
     first, last = (find_flip(decide, shares[k], shares[k + 1], scan=2).value for k in (changes[0], changes[-1]))
     return Band(first, last)
+
+
+QUESTIONS = {"fully_crushed": "crushed", "enhanced": "enhanced"}  # criteria of the solver's runs, fields of `Story`
+
+
+def ask(
+    pool: Executor, chain: Chain, pressures: Sequence[float], bracket: tuple[float, float], scan: int = 12
+) -> dict[str, list[Future[Band]]]:
+    """Submit `critical` at every pressure (Pa) for both criteria; the answers come by criterion."""
+    return {
+        criterion: [pool.submit(critical, chain, question, p, bracket, scan=scan) for p in pressures]
+        for criterion, question in QUESTIONS.items()
+    }
 
 
 def answers(chain: Chain, pressure: float, shares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

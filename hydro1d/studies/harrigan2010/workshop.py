@@ -24,9 +24,6 @@ from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
 from hydro1d.threads import threads_here
 
-BLUE, RED, GREEN, ORANGE = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00"
-PURPLE, GREY, BROWN, GOLD, PINK, LILAC = "#7d3c98", "#777777", "#8b5a2b", "#d9b648", "#d98cb3", "#b9a3d4"
-
 
 class Number(NamedTuple):
     """One number in three columns: what the paper prints, what its equations give, what the solver gives."""
