@@ -1,4 +1,4 @@
-"""``hydro1d run``: a deck becomes a result."""
+"""``hydro1d run``: run a deck and write its result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A measured curve."""
+"""Reading a measured quasi-static curve from a file, and checking it."""
 
 from __future__ import annotations
 

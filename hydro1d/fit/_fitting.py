@@ -1,4 +1,4 @@
-"""Least squares."""
+"""Fitting a law to a measured curve by least squares."""
 
 from __future__ import annotations
 

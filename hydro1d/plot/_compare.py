@@ -1,4 +1,4 @@
-"""Several runs beside each other."""
+"""Several runs in the same axes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The numbers that answer what a user ran the code for."""
+"""The headline and the tables of numbers on the page."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def uncrushed(run: Run) -> float | None:
 
 
 def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
-    """Loads, crushing, steps."""
+    """The table of key numbers: loads, crushing, openings, time steps."""
     require_history(run)
     verdict, history = verdict_of(run, deck), run.history
     pressure = scale_for("Pa", [verdict.felt, verdict.applied])

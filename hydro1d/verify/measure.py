@@ -39,7 +39,7 @@ class Recording:
         self._probes.append(np.array(probes))
 
     def flush(self) -> None:
-        """Nothing to write."""
+        """A recording in memory has nothing to flush."""
 
     def checkpoint(self, state: SolverState) -> None:
         """Nothing to keep."""

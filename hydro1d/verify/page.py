@@ -73,7 +73,7 @@ def hardest(rows: Sequence[Row]) -> Row | None:
 
 
 def anchor(report: Report) -> str:
-    """A name for links."""
+    """The id under which the page links to a case."""
     return re.sub(r"[^a-z0-9]+", "-", report.case.name.lower())
 
 

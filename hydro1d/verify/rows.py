@@ -165,10 +165,10 @@ class Table:
 
 
 def line(x: ArrayLike, y: ArrayLike, label: str, style: Literal["exact", "run", "points"] = "run") -> Line:
-    """A curve from anything array-like."""
+    """A `Line` from two array-likes."""
     return Line(np.asarray(x, dtype=float), np.asarray(y, dtype=float), label, style)
 
 
 def failure(case: str, quantity: str, reason: str) -> Row:
-    """A row for what did not run."""
+    """A row that fails, for a case that did not run to its end."""
     return Row(case, quantity, math.nan, math.nan, math.nan, None, 0.0, False, None, reason)

@@ -37,7 +37,7 @@ ROWS = 1265
 
 @dataclass(frozen=True)
 class Report:
-    """What one case gave."""
+    """Rows and panels of one case, and how long it took (s)."""
 
     case: Case
     rows: tuple[Row, ...]

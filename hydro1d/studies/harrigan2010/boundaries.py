@@ -207,7 +207,7 @@ def _draw_chains(ax: Any, table: Table, scale: np.ndarray) -> None:
 
 
 def _draw_rooms(ax: Any, table: Table, scale: np.ndarray) -> None:
-    """The chains of `rooms`: a band, and lines."""
+    """Draw the chains of `rooms`: a band for half an end mass, lines for the others."""
     pressure = table["pressure"] / 1e6
     first = np.minimum(*(table[f"half mass {criterion} first"] for criterion in CRITERIA)) / scale
     last = np.maximum(*(table[f"half mass {criterion} last"] for criterion in CRITERIA)) / scale

@@ -16,7 +16,7 @@ MEGA = 1e6
 
 
 def figure_1(work: Workshop) -> None:
-    """Quasi-static curves."""
+    """Fig. 1: the quasi-static curves of R-P-P-L and E-P-P-H."""
     strain = np.concatenate([[0.0], np.linspace(foam.PLATEAU / foam.MODULUS, foam.LOCKING, 30)])
     over = np.linspace(foam.LOCKING, 1.0, 200)[:-1]
     ends = np.minimum(over, foam.LINEAR.strain_limit)

@@ -17,7 +17,7 @@ HARD = (5.0, 0.8)  # β, γ of a foam that hardens earlier and keeps springs awa
 
 
 def figure_12(work: Workshop) -> None:
-    """Trajectories against τ."""
+    """Fig. 12: positions of ten masses, and of as many points of the continuum, against τ."""
     chain = work.run("mass_spring_li_meng.toml", "fig12_ten_masses")
     hardening = [f"material.foam.beta={HARD[0]}", f"material.foam.gamma={HARD[1]}"]
     hard = work.run("mass_spring_li_meng.toml", "fig12_ten_masses_hard", hardening)

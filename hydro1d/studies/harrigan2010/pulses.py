@@ -30,7 +30,7 @@ STEADY = (0.5e-3, 1.5e-3)  # s: within the pulse, when the front has formed
 
 
 def figure_11a(work: Workshop) -> None:
-    """R-P-P-L."""
+    """Fig. 11a: R-P-P-L under a pulse."""
     zones, stiff = (work.size.fine_zones // 2, 10000.0) if work.size.studies else (200, 4000.0)
     runs = [
         work.run("pulse_rppl.toml", f"fig11a_rppl_{k:g}", [f"layer[0].zones={zones}", f"material.foam.stiffness={k}"])
@@ -95,7 +95,7 @@ def _numbers_11a(work: Workshop, theory: analytic.RPPLPulse, runs: list[Run], st
 
 
 def figure_11b(work: Workshop) -> None:
-    """E-P-P-H."""
+    """Fig. 11b: E-P-P-H under a pulse."""
     run = work.run("pulse_epph.toml", "fig11b_epph", [f"layer[0].zones={work.size.fine_zones}"])
     stiff = [f"layer[0].zones={work.size.fine_zones}", f"material.foam.unloading_modulus={RIGIDITY * foam.MODULUS}"]
     rigid = work.run("pulse_epph.toml", "fig11b_epph_rigid_unloading", stiff)

@@ -31,7 +31,7 @@ class RaisedCosine(Pulse):
     duration: float = positive("s", "duration")
 
     def pressure(self, time: float) -> float:
-        """Zero after the duration."""
+        """Pressure at a time (s), Pa: zero after the duration."""
         swing = 0.5 * (1.0 - math.cos(2.0 * math.pi * min(time / self.duration, 1.0)))
         return self.peak * swing * swing
 

@@ -49,17 +49,17 @@ def _material(word: str, law: Law, **more: Any) -> Material:
 
 
 def epph() -> Material:
-    """Eq. 39; its curve ends at p = 6.9."""
+    """E-P-P-H by Eq. 39, a curve that ends at 6.9 plateau stresses."""
     return _material("epph", EPPH(**FOAM, shock_slope=SLOPE), pressures=(1.5, 3.0, 4.5, 6.0))
 
 
 def epph_tangent() -> Material:
-    """Eq. 38."""
+    """E-P-P-H by Eq. 38."""
     return _material("epph-tangent", EPPHTangent(**FOAM, beta=BETA, gamma=GAMMA))
 
 
 def table() -> Material:
-    """Forty points of Eq. 38."""
+    """A table of forty points on Eq. 38."""
     smooth = epph_tangent().curve
     strains = np.concatenate([[PLATEAU / MODULUS], np.linspace(DENSIFICATION, 0.985, 40)])
     points = tuple((float(e), float(smooth.stress(e))) for e in strains)
@@ -69,7 +69,7 @@ def table() -> Material:
 
 
 def rph() -> Material:
-    """Hardening from the first, elastic below."""
+    """A foam that hardens from yield on and is elastic below."""
     law = RPH(density=DENSITY, modulus=MODULUS, plateau_stress=PLATEAU, hardening=0.1e6)
     return _material("rph", law, zones=600)
 

@@ -42,7 +42,7 @@ def _pulse() -> Pressure:
 
 
 def _conserved(table: Table, name: str, run: Recording) -> None:
-    """Energy and momentum over every step."""
+    """Rows for the energy and the momentum of a run, which every step must conserve."""
     table.bound(f"{name}: energy", run.energy_error, 1e-12, ROUND_OFF)
     momentum, impulse = run["momentum"], run["boundary_impulse"]
     scale = np.abs(run.column.node_mass).sum() * max(float(np.abs(run.last["velocity"]).max()), 1e-3)
@@ -83,7 +83,7 @@ def _imbalance(name: str, run: Recording) -> Line:
 
 
 def _mirror(table: Table, zones: int) -> None:
-    """The same column the other way round."""
+    """Rows for a column and its mirror image, which must give mirrored fields."""
     there = simulate(_foam_layers(zones), _pulse(), Wall(), end=2e-3)
     back = simulate(_foam_layers(zones)[::-1], Wall(), _pulse(), end=2e-3)
     for name, sign in (("velocity", -1.0), ("strain", 1.0), ("stress", 1.0)):
@@ -93,7 +93,7 @@ def _mirror(table: Table, zones: int) -> None:
 
 
 def _galilean(table: Table, zones: int) -> None:
-    """Everything ten sound speeds faster."""
+    """Rows for columns that move ten sound speeds faster, which must deform as they do at rest."""
     foam = materials.epph().law
     gas = IdealGas(density=1.0, gamma=1.4, pressure=1e5)
     cases: tuple[tuple[str, list[Layer], float, float], ...] = (
