@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ import numpy as np
 from hydro1d.analysis.theory import CURVES
 from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, Hydro1dError
-from hydro1d.fit._confidence import Confidence, confidence
+from hydro1d.fit._confidence import confidence
 from hydro1d.fit._curve import MeasuredCurve, density_line, measured
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
 from hydro1d.fit._models import MODELS, NEED_DENSITY, Parameter
@@ -125,13 +126,7 @@ def fit_curve(
     strain_unit and stress_unit are those of a file whose header names none.
     Raises DeckError for an unknown law, a missing density or a curve that cannot be fitted, FileProblem for the file.
     """
-    if law not in MODELS:
-        raise DeckError(
-            f"no fit for the law {law[:60]!r}{suggestion(law, fittable())}; there are {', '.join(MODELS)}; "
-            'hydro1d laws fit --table writes a curve for law = "table"'
-        )
-    if law in NEED_DENSITY and density is None:
-        raise DeckError(f"{law} needs the density: its hardening (Eq. 39) depends on it")
+    _refuse_unfittable(law, density)
     curve, notes = measured(curve, largest_strain, strain_unit, stress_unit)
     found = energy_efficiency(curve)
     parameters = MODELS[law](curve, found)
@@ -139,7 +134,39 @@ def fit_curve(
     difference = _difference(law, names, _thinned(curve), density, found.plateau_stress)
     values, jacobian = _solve(difference, parameters)
     trust = confidence(parameters, values, jacobian, difference)
-    return _result(law, curve, parameters, values, difference(values), trust, density, found, notes)
+    named = dict(zip(names, map(float, values), strict=True))
+    residuals = _stress(law, curve.strain, density, named) - curve.stress
+    return Fit(
+        law=law,
+        curve=curve,
+        values=named,
+        intervals={
+            name: (v - h, v + h) for (name, v), h in zip(named.items(), map(float, trust.half_width), strict=True)
+        },
+        units={parameter.name: parameter.unit for parameter in parameters},
+        residuals=residuals,
+        rms=_root_mean_square(residuals),
+        relative_rms=_root_mean_square(difference(values)),
+        efficiency=found,
+        density=density,
+        undetermined=tuple(itertools.compress(names, trust.undetermined)),
+        at_bound=tuple(itertools.compress(names, trust.at_bound)),
+        notes=notes,
+    )
+
+
+def _refuse_unfittable(law: str, density: float | None) -> None:
+    if law not in MODELS:
+        raise DeckError(
+            f"no fit for the law {law[:60]!r}{suggestion(law, fittable())}; there are {', '.join(MODELS)}; "
+            'hydro1d laws fit --table writes a curve for law = "table"'
+        )
+    if law in NEED_DENSITY and density is None:
+        raise DeckError(f"{law} needs the density: its hardening (Eq. 39) depends on it")
+
+
+def _root_mean_square(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def _thinned(curve: MeasuredCurve) -> MeasuredCurve:
@@ -190,34 +217,3 @@ def _solve(
     if best is None or not np.isfinite(best.cost) or best.cost >= 0.1 * _PENALTY**2:
         raise Hydro1dError("no parameters of this law come near the curve")
     return best.x, best.jac
-
-
-def _result(
-    law: str,
-    curve: MeasuredCurve,
-    parameters: list[Parameter],
-    values: np.ndarray,
-    differences: np.ndarray,
-    trust: Confidence,
-    density: float | None,
-    found: Efficiency,
-    notes: tuple[str, ...],
-) -> Fit:
-    named = dict(zip([parameter.name for parameter in parameters], map(float, values), strict=True))
-    half, vague, ended = trust
-    residuals = _stress(law, curve.strain, density, named) - curve.stress
-    return Fit(
-        law,
-        curve,
-        named,
-        {name: (float(v - h), float(v + h)) for (name, v), h in zip(named.items(), half, strict=True)},
-        {parameter.name: parameter.unit for parameter in parameters},
-        residuals,
-        float(np.sqrt(np.mean(residuals**2))),
-        float(np.sqrt(np.mean(differences**2))),
-        found,
-        density,
-        tuple(name for name, is_vague in zip(named, vague, strict=True) if is_vague),
-        tuple(name for name, is_ended in zip(named, ended, strict=True) if is_ended),
-        notes,
-    )
