@@ -5,6 +5,7 @@ Units: peak Pa, times s. `pressure(t)` in Pa, `impulse(t)` in Pa s, `impulse_int
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,16 +19,25 @@ class Pulse(ABC):
     """A pressure that is zero before t = 0."""
 
     @abstractmethod
+    def _pressure(self, t: Array) -> Array: ...
+
+    @abstractmethod
+    def _impulse(self, t: Array) -> Array: ...
+
+    @abstractmethod
+    def _impulse_integral(self, t: Array) -> Array: ...
+
     def pressure(self, t: ArrayLike) -> Array:
         """Pressure, Pa."""
+        return self._pressure(np.asarray(t, dtype=float))
 
-    @abstractmethod
     def impulse(self, t: ArrayLike) -> Array:
         """Integral of the pressure from 0 to t, Pa s."""
+        return self._impulse(np.asarray(t, dtype=float))
 
-    @abstractmethod
     def impulse_integral(self, t: ArrayLike) -> Array:
         """Integral of the impulse from 0 to t, Pa s^2."""
+        return self._impulse_integral(np.asarray(t, dtype=float))
 
 
 @dataclass(frozen=True)
@@ -40,17 +50,13 @@ class RectangularPulse(Pulse):
     def __post_init__(self) -> None:
         positive(self, "peak", "duration")
 
-    def pressure(self, t: ArrayLike) -> Array:
-        """Pressure, Pa."""
-        return np.where(np.asarray(t) <= self.duration, self.peak, 0.0)
+    def _pressure(self, t: Array) -> Array:
+        return np.where(t <= self.duration, self.peak, 0.0)
 
-    def impulse(self, t: ArrayLike) -> Array:
-        """Integral of the pressure from 0 to t, Pa s."""
-        return self.peak * np.minimum(np.asarray(t, dtype=float), self.duration)
+    def _impulse(self, t: Array) -> Array:
+        return self.peak * np.minimum(t, self.duration)
 
-    def impulse_integral(self, t: ArrayLike) -> Array:
-        """Integral of the impulse from 0 to t, Pa s^2."""
-        t = np.asarray(t, dtype=float)
+    def _impulse_integral(self, t: Array) -> Array:
         loaded = np.minimum(t, self.duration)
         return self.peak * loaded * (t - 0.5 * loaded)
 
@@ -65,18 +71,14 @@ class TriangularPulse(Pulse):
     def __post_init__(self) -> None:
         positive(self, "peak", "duration")
 
-    def pressure(self, t: ArrayLike) -> Array:
-        """Pressure, Pa."""
-        return self.peak * np.maximum(1.0 - np.asarray(t, dtype=float) / self.duration, 0.0)
+    def _pressure(self, t: Array) -> Array:
+        return self.peak * np.maximum(1.0 - t / self.duration, 0.0)
 
-    def impulse(self, t: ArrayLike) -> Array:
-        """Integral of the pressure from 0 to t, Pa s."""
-        loaded = np.minimum(np.asarray(t, dtype=float), self.duration)
+    def _impulse(self, t: Array) -> Array:
+        loaded = np.minimum(t, self.duration)
         return self.peak * loaded * (1.0 - 0.5 * loaded / self.duration)
 
-    def impulse_integral(self, t: ArrayLike) -> Array:
-        """Integral of the impulse from 0 to t, Pa s^2."""
-        t = np.asarray(t, dtype=float)
+    def _impulse_integral(self, t: Array) -> Array:
         loaded = np.minimum(t, self.duration)
         during = self.peak * loaded**2 * (0.5 - loaded / (6.0 * self.duration))
         return during + 0.5 * self.peak * self.duration * (t - loaded)
@@ -92,17 +94,14 @@ class ExponentialPulse(Pulse):
     def __post_init__(self) -> None:
         positive(self, "peak", "decay")
 
-    def pressure(self, t: ArrayLike) -> Array:
-        """Pressure, Pa."""
-        return self.peak * np.exp(-np.asarray(t, dtype=float) / self.decay)
+    def _pressure(self, t: Array) -> Array:
+        return self.peak * np.exp(-t / self.decay)
 
-    def impulse(self, t: ArrayLike) -> Array:
-        """Integral of the pressure from 0 to t, Pa s."""
-        return -self.peak * self.decay * np.expm1(-np.asarray(t, dtype=float) / self.decay)
+    def _impulse(self, t: Array) -> Array:
+        return -self.peak * self.decay * np.expm1(-t / self.decay)
 
-    def impulse_integral(self, t: ArrayLike) -> Array:
-        """Integral of the impulse from 0 to t, Pa s^2."""
-        return self.peak * self.decay**2 * _second_exponential(np.asarray(t, dtype=float) / self.decay)
+    def _impulse_integral(self, t: Array) -> Array:
+        return self.peak * self.decay**2 * _second_exponential(t / self.decay)
 
 
 def _second_exponential(s: Array) -> Array:
@@ -123,19 +122,15 @@ class FriedlanderPulse(Pulse):
         positive(self, "peak", "duration")
         not_negative(self, "decay")
 
-    def pressure(self, t: ArrayLike) -> Array:
-        """Pressure, Pa."""
-        s = np.minimum(np.asarray(t, dtype=float) / self.duration, 1.0)
+    def _pressure(self, t: Array) -> Array:
+        s = np.minimum(t / self.duration, 1.0)
         return self.peak * (1.0 - s) * np.exp(-self.decay * s)
 
-    def impulse(self, t: ArrayLike) -> Array:
-        """Integral of the pressure from 0 to t, Pa s."""
-        s = np.minimum(np.asarray(t, dtype=float) / self.duration, 1.0)
+    def _impulse(self, t: Array) -> Array:
+        s = np.minimum(t / self.duration, 1.0)
         return self.peak * self.duration * self._moment(s, 0)
 
-    def impulse_integral(self, t: ArrayLike) -> Array:
-        """Integral of the impulse from 0 to t, Pa s^2."""
-        t = np.asarray(t, dtype=float)
+    def _impulse_integral(self, t: Array) -> Array:
         s = np.minimum(t / self.duration, 1.0)
         later = np.maximum(t - self.duration, 0.0) * self.impulse(self.duration)
         return self.peak * self.duration**2 * self._moment(s, 1) + later
@@ -163,28 +158,25 @@ class TablePulse(Pulse):
         rising = self.times[0] >= 0.0 and bool(np.all(np.diff(self.times) > 0.0))
         require(rising, "times", self.times, "increasing and not negative")
 
-    def pressure(self, t: ArrayLike) -> Array:
-        """Pressure, Pa."""
-        return np.interp(np.asarray(t, dtype=float), self.times, self.pressures, left=0.0, right=0.0)
+    def _pressure(self, t: Array) -> Array:
+        return np.interp(t, self.times, self.pressures, left=0.0, right=0.0)
 
-    def impulse(self, t: ArrayLike) -> Array:
-        """Integral of the pressure from 0 to t, Pa s."""
+    def _impulse(self, t: Array) -> Array:
         line, since, slope = self._line(t)
         start = np.asarray(self.pressures)[line]
         impulses, _ = self._at_points()
         return impulses[line] + since * (start + 0.5 * slope * since)
 
-    def impulse_integral(self, t: ArrayLike) -> Array:
-        """Integral of the impulse from 0 to t, Pa s^2."""
+    def _impulse_integral(self, t: Array) -> Array:
         line, since, slope = self._line(t)
         start = np.asarray(self.pressures)[line]
         impulses, seconds = self._at_points()
         during = seconds[line] + since * (impulses[line] + since * (0.5 * start + slope * since / 6.0))
-        return during + impulses[-1] * np.maximum(np.asarray(t, dtype=float) - self.times[-1], 0.0)
+        return during + impulses[-1] * np.maximum(t - self.times[-1], 0.0)
 
-    def _line(self, t: ArrayLike) -> tuple[Array, Array, Array]:
+    def _line(self, t: Array) -> tuple[Any, Array, Array]:
         """Index of the line, time since its start, its slope."""
-        inside = np.clip(np.asarray(t, dtype=float), self.times[0], self.times[-1])
+        inside = np.clip(t, self.times[0], self.times[-1])
         line = np.clip(np.searchsorted(self.times, inside, side="right") - 1, 0, len(self.times) - 2)
         slopes = np.diff(self.pressures) / np.diff(self.times)
         return line, inside - np.asarray(self.times)[line], slopes[line]

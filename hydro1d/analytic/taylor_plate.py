@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hydro1d.analytic._checks import Array, coordinates, not_negative, positive, times
-from hydro1d.analytic.jumps import Fields, Jump, State, rest_state
+from hydro1d.analytic.elastic_layers import ElasticLayer
+from hydro1d.analytic.jumps import Fields, Jump, rest_state
 
 
 class PlateHistory(NamedTuple):
@@ -45,14 +46,18 @@ class TaylorPlate:
         not_negative(self, "thickness")
 
     @property
+    def _medium(self) -> ElasticLayer:  # the waves in it know no thickness, which may be zero here
+        return ElasticLayer(self.density, self.modulus, self.thickness or 1.0)
+
+    @property
     def sound_speed(self) -> float:
         """Lagrangian sound speed of the medium, m/s."""
-        return math.sqrt(self.modulus / self.density)
+        return self._medium.wave_speed
 
     @property
     def impedance(self) -> float:
         """rho c, kg/(m^2 s)."""
-        return math.sqrt(self.modulus * self.density)
+        return self._medium.impedance
 
     @property
     def beta(self) -> float:
@@ -112,33 +117,18 @@ class TaylorPlate:
         path = self.sound_speed * t
         rest = rest_state(self.density)
         if t < self.arrival_time:
-            return [Jump(rest, self._state(self.peak, 0.0), self.density, self.sound_speed, path)]
+            return [Jump(rest, self._medium.state(self.peak, 0.0), self.density, self.sound_speed, path)]
         at = 2.0 * self.thickness - path
         incident = float(self._incident(np.asarray(t - at / self.sound_speed)))
-        states = self._state(incident, 0.0), self._state(incident, self.peak)
+        states = self._medium.state(incident, 0.0), self._medium.state(incident, self.peak)
         return [Jump(*states, self.density, -self.sound_speed, at)]
 
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields in the medium at coordinate (m) and t (s), which broadcast."""
         t = times(t, self.end_time, "cavitation, or the reflected wave is back")
         place = coordinates(coordinate, self.thickness) / self.sound_speed
-        incident = self._incident(t - place)
         reflected = self._reflected(t - (2.0 * self.arrival_time - place))
-        stress = incident + reflected
-        strain = stress / self.modulus
-        return Fields(
-            (incident - reflected) / self.impedance,
-            stress,
-            strain,
-            self.density / (1.0 - strain),
-            0.5 * stress * strain / self.density,
-        )
-
-    def _state(self, incident: float, reflected: float) -> State:
-        stress = incident + reflected
-        strain = stress / self.modulus
-        velocity = (incident - reflected) / self.impedance
-        return State(velocity, stress, strain, self.density / (1.0 - strain), 0.5 * stress * strain / self.density)
+        return self._medium.fields(self._incident(t - place), reflected)
 
 
 def _relative_growth(x: Array) -> Array:

@@ -90,6 +90,17 @@ def positive(text: str) -> int:
     return int(text)
 
 
+def quantity(text: str, unit: str, option: str) -> float:
+    """A number, or a text with a unit, in the SI unit. Raises DeckError, naming the option."""
+    from hydro1d.components.units import convert, is_number
+    from hydro1d.errors import DeckError
+
+    try:
+        return convert(float(text) if is_number(text) else text, unit)
+    except ValueError as error:
+        raise DeckError(f"{option}: {error}") from error
+
+
 def figure(value: float, unit: str = "", digits: int = 4) -> str:
     """Return a value as people read it: ``figure(3.6e6, "Pa")`` is "3.6 MPa". Only a single unit takes a prefix."""
     if not unit.isalpha() or unit == "kg" or value != value or value in (float("inf"), -float("inf")):

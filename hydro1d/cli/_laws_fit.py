@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from hydro1d.cli import _common
+
 if TYPE_CHECKING:
     from hydro1d.fit import Efficiency, Tabulated
 
@@ -17,21 +19,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("curve", metavar="CURVE.csv", type=Path, help="two columns, header and units optional")
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--law", default="epph-tangent", help="the law to fit, default epph-tangent")
-    what.add_argument(
-        "--table",
-        metavar="FILE.csv",
-        type=Path,
-        help='fit no law: write the curve itself, smoothed and without falls, for law = "table"',
-    )
+    table = 'fit no law: write the curve itself, smoothed and without falls, for law = "table"'
+    what.add_argument("--table", metavar="FILE.csv", type=Path, help=table)
     parser.add_argument(
         "--strain-unit", metavar="UNIT", default="", help='of the first column, "%%"; default: as in the header, else 1'
     )
-    parser.add_argument(
-        "--stress-unit",
-        metavar="UNIT",
-        default="",
-        help="of the second column, MPa; default: as in the header, else Pa",
-    )
+    second = "of the second column, MPa; default: as in the header, else Pa"
+    parser.add_argument("--stress-unit", metavar="UNIT", default="", help=second)
     parser.add_argument("--density", metavar="DENSITY", help='of the foam, "51.6 kg/m^3"; epph needs it')
     parser.add_argument("--max-strain", metavar="STRAIN", type=float, default=1.0, help="leave out what lies beyond")
     parser.add_argument("--material", metavar="NAME", default="foam", help="name in the deck fragment, default foam")
@@ -61,13 +55,12 @@ def run(args: argparse.Namespace) -> None:
 
 def _written(found: Tabulated, source: Path, target: Path) -> list[str]:
     """Write the table; what to say of it. Raises FileProblem where it would destroy the measured curve or a result."""
-    from hydro1d.cli._common import refuse_result
     from hydro1d.errors import FileProblem
 
     if target.exists() and target.samefile(source):
         raise FileProblem(f"cannot write {target}: it is the measured curve; choose another name")
     try:
-        refuse_result(target).write_text(found.csv())
+        _common.refuse_result(target).write_text(found.csv())
     except OSError as error:
         raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
     return [
@@ -102,18 +95,9 @@ def _unit(args: argparse.Namespace, column: str, wanted: str) -> str:
 
 
 def _density(text: str | None) -> float | None:
-    from hydro1d.components.units import convert
     from hydro1d.errors import DeckError
 
-    if text is None:
-        return None
-    try:
-        value = float(text)
-    except ValueError:
-        try:
-            value = convert(text, "kg/m^3")
-        except ValueError as error:
-            raise DeckError(f"--density: {error}") from error
-    if not 0.0 < value < float("inf"):
+    value = None if text is None else _common.quantity(text, "kg/m^3", "--density")
+    if value is not None and value <= 0.0:
         raise DeckError("--density must be above zero")
     return value

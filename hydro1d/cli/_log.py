@@ -45,7 +45,7 @@ class JsonLog:
         print(json.dumps(record), file=self._stream, flush=True)
 
     def start(self, deck: Deck, output: Path) -> None:
-        """What is about to be run."""
+        """Write the event `start`: title, result, zones, end time."""
         zones = sum(layer.zones for layer in deck.layers)
         self.write("start", title=deck.title, output=str(output), zones=zones, end_time=deck.time.end)
 
@@ -54,14 +54,14 @@ class JsonLog:
         self.write("compiling", what=what)
 
     def progress(self, share: float) -> None:
-        """How far, once every `INTERVAL`."""
+        """Write the event `progress`, once every `INTERVAL`."""
         if time.monotonic() - self._last >= INTERVAL:
             self._last = time.monotonic()
             seen = {name: getattr(share, name) for name in ("time", "cycles") if hasattr(share, name)}
             self.write("progress", share=round(float(share), 6), **seen)
 
     def done(self, result: Run, output: Path) -> None:
-        """What came out."""
+        """Write the event `done`: status, peaks, energy error."""
         history = result.history
         last = ("peak_left_stress", "peak_right_stress", "peak_stress", "uncrushed_fraction", "boundary_work")
         self.write(
@@ -77,7 +77,7 @@ class JsonLog:
         )
 
     def error(self, error: BaseException) -> None:
-        """What went wrong; the exit code is that of the command."""
+        """Write the event `error`; the exit code is that of the command."""
         code = 130 if isinstance(error, KeyboardInterrupt) else int(getattr(error, "exit_code", 1))
         self.write("error", exit_code=code, message=str(error))
 

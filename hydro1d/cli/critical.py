@@ -26,20 +26,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='enhanced, fully_crushed, separated, or a comparison such as "support_peak > 2 MPa"',
     )  # fmt: skip
     add("--tolerance", metavar="SHARE", type=float, default=1e-3, help="relative width of the last bracket (1e-3)")
-    add(
-        "--scan",
-        metavar="N",
-        type=int,
-        default=5,
-        help="values over the whole bracket that check for a single flip (5)",
-    )
-    add(
-        "--spacing",
-        choices=SPACINGS,
-        type=_common.one_of(SPACINGS),
-        default="linear",
-        help="how these values are spread",
-    )
+    single = "values over the whole bracket that check for a single flip (5)"
+    add("--scan", metavar="N", type=int, default=5, help=single)
+    spread, spacing = "how these values are spread", _common.one_of(SPACINGS)
+    add("--spacing", choices=SPACINGS, type=spacing, default="linear", help=spread)
     add("--along", metavar="PATH", help="a second key: trace the boundary along it")
     add("--values", metavar="LIST", help='its values: "2 MPa, 3 MPa" or FIRST:LAST:COUNT')
     add("--threads", metavar="N", type=int, help="points at a time; default: the processors there are")
@@ -61,12 +51,7 @@ def run(args: argparse.Namespace) -> None:
     for path in filter(None, (args.output, boundary_file)):
         check_text_target(path)
     arguments = (args.deck, args.key, _value(args.low), _value(args.high), args.outcome)
-    options: dict[str, Any] = {
-        "overrides": args.overrides,
-        "tolerance": args.tolerance,
-        "scan": args.scan,
-        "spacing": args.spacing,
-    }
+    options: dict[str, Any] = {name: getattr(args, name) for name in ("overrides", "tolerance", "scan", "spacing")}
     if args.along is None:
         from hydro1d.interrupt import interruptible
 

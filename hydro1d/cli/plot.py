@@ -122,7 +122,8 @@ _DRAW: dict[str, Callable[[str, argparse.Namespace, list[Run]], Path]] = {"anima
 def _options(kind: str, args: argparse.Namespace) -> dict[str, Any]:
     """Arguments of the function that draws."""
     options: dict[str, Any] = {}
-    names, times = _list(args.quantity), _times(args.time)
+    names = _list(args.quantity)
+    times = [_common.quantity(text, "s", "--time") for text in _list(args.time)]
     if names and kind == "xt":
         options["quantity"] = _one(names, "--quantity", kind)
     elif names:
@@ -152,13 +153,3 @@ def _one(values: list[Any], option: str, kind: str) -> Any:
 
 def _list(texts: list[str]) -> list[str]:
     return [part.strip() for text in texts for part in text.split(",") if part.strip()]
-
-
-def _times(texts: list[str]) -> list[float]:
-    from hydro1d.components.units import convert, is_number
-    from hydro1d.errors import DeckError
-
-    try:
-        return [convert(float(text) if is_number(text) else text, "s") for text in _list(texts)]
-    except ValueError as error:
-        raise DeckError(f"--time: {error}") from error

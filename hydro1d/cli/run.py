@@ -1,4 +1,4 @@
-"""``hydro1d run``: a deck becomes a result."""
+"""``hydro1d run``: run a deck and write its result."""
 
 from __future__ import annotations
 
@@ -131,11 +131,8 @@ def summary(deck: Deck, result: Run, output: Path, opened: Openings | None = Non
 
 def _openings(opened: Openings) -> str:
     """What came apart, as far as the stored profiles show."""
-    low, high, first = (
-        _common.figure(opened.low, "m"),
-        _common.figure(opened.high, "m"),
-        _common.figure(opened.first, "s"),
-    )
+    low, high = _common.figure(opened.low, "m"), _common.figure(opened.high, "m")
+    first = _common.figure(opened.first, "s")
     text = f"opened: {opened.zones} of {opened.total} zones, first seen at {first}, X from {low} to {high}; {opened.outcome}"
     if opened.stretched:
         text += f"; {opened.stretched} stretched beyond the initial length, to {opened.widest:.3g} times it at most"

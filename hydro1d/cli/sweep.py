@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from hydro1d.sweep import Sweep, Table
 
-MOST_REASONS = 5
+MAX_REASONS = 5
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -65,12 +65,12 @@ def run(args: argparse.Namespace) -> int:
 def _reasons(sweep: Sweep, table: Table, failed: list[int]) -> list[str]:
     """A line for each of the first runs that failed: where they stand, and why they did."""
     lines, units = [], [table.columns[parameter.label].units for parameter in sweep.parameters]
-    for k in failed[:MOST_REASONS]:
+    for k in failed[:MAX_REASONS]:
         point = zip(sweep.parameters, sweep.points()[k], units, strict=True)
         where = ", ".join(f"{p.label} = {_shown(value, unit)}" for p, value, unit in point)
         lines.append(f"  run {k}, {where}: {table['error'][k]}")
-    if len(failed) > MOST_REASONS:
-        lines.append(f"  … and {len(failed) - MOST_REASONS} more; the column error of the table holds all reasons")
+    if len(failed) > MAX_REASONS:
+        lines.append(f"  … and {len(failed) - MAX_REASONS} more; the column error of the table holds all reasons")
     return lines
 
 

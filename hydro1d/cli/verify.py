@@ -76,16 +76,13 @@ def _write(args: argparse.Namespace, reports: list, rows: list, seconds: float) 
     """The files that were asked for, rows that failed included."""
     import json
 
+    from hydro1d.verify.markdown import markdown_page
+    from hydro1d.verify.page import html_page
+
     if args.json is not None:
         text = json.dumps([row.plain() for row in rows], indent=1, ensure_ascii=False) + "\n"
         _common.refuse_result(args.json).write_text(text, encoding="utf-8")
-    if args.html is not None:
-        from hydro1d.verify.page import html_page
-
-        page = html_page(reports, rows, full=args.full, seconds=seconds)
-        _common.refuse_result(args.html).write_text(page, encoding="utf-8")
-    if args.markdown is not None:
-        from hydro1d.verify.markdown import markdown_page
-
-        page = markdown_page(reports, rows, full=args.full, seconds=seconds)
-        _common.refuse_result(args.markdown).write_text(page, encoding="utf-8")
+    for path, make in ((args.html, html_page), (args.markdown, markdown_page)):
+        if path is not None:
+            page = make(reports, rows, full=args.full, seconds=seconds)
+            _common.refuse_result(path).write_text(page, encoding="utf-8")

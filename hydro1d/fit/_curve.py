@@ -1,4 +1,4 @@
-"""A measured curve."""
+"""Reading a measured quasi-static curve from a file, and checking it."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 
 from hydro1d.errors import DeckError, FileProblem
 
-MOST_AT_REST = 0.02  # of the largest stress, at strain 0: more is a curve drawn without its elastic part
-LEAST_POINTS = 8  # three more than the parameters of any law
-LEAST_PASCALS = 1e3  # the softest foams bear more than this before they densify
+MAX_AT_REST = 0.02  # of the largest stress, at strain 0: more is a curve drawn without its elastic part
+MIN_POINTS = 8  # three more than the parameters of any law
+MIN_PASCALS = 1e3  # the softest foams bear more than this before they densify
 
 
 class MeasuredCurve(NamedTuple):
@@ -71,7 +71,7 @@ def read_measured(
                 "single loading"
             )
         notes.append(f"left out: {count} of {len(kept)} points, at which the strain does not rise or is negative")
-    if kept.any() and strain[kept][0] == 0.0 and stress[kept][0] > MOST_AT_REST * stress[kept].max():
+    if kept.any() and strain[kept][0] == 0.0 and stress[kept][0] > MAX_AT_REST * stress[kept].max():
         notes.append(
             f"left out: the stress of {stress[kept][0] / 1e6:.4g} MPa at strain 0, where every law begins with none"
         )
@@ -80,6 +80,20 @@ def read_measured(
     if not given[1]:
         notes.append(_about_pascals(source, curve))
     return Measured(curve, tuple(notes))
+
+
+def measured(
+    curve: MeasuredCurve | str | os.PathLike[str], largest_strain: float, strain_unit: str, stress_unit: str
+) -> Measured:
+    """The curve itself, checked, or that of a file (`read_measured`). Raises DeckError and FileProblem."""
+    if isinstance(curve, str | os.PathLike):
+        return read_measured(curve, largest_strain, strain_unit, stress_unit)
+    return Measured(checked(curve.strain, curve.stress, largest_strain), ())
+
+
+def density_line(density: float | None) -> str:
+    """The density in a deck; without one, that line is left for the user to fill in."""
+    return f'density = "{density:.6g} kg/m^3"' if density is not None else '# density = "... kg/m^3"   # required'
 
 
 def _turned(strain: np.ndarray, stress: np.ndarray) -> tuple[np.ndarray, np.ndarray, list[str]]:
@@ -92,7 +106,7 @@ def _turned(strain: np.ndarray, stress: np.ndarray) -> tuple[np.ndarray, np.ndar
 def _about_pascals(source: Path, curve: MeasuredCurve) -> str:
     """A remark on stresses without a unit. Raises DeckError where they cannot be pascals."""
     largest = float(curve.stress.max())
-    if largest < LEAST_PASCALS:
+    if largest < MIN_PASCALS:
         raise DeckError(
             f"{source}: the stress has no unit, and its largest value, {largest:g}, is too small for Pa; is it MPa? "
             "Write the unit into the header, stress [MPa], or give it with --stress-unit MPa"
@@ -104,9 +118,9 @@ def checked(strain: np.ndarray, stress: np.ndarray, largest_strain: float = 1.0)
     """The curve, if it can be fitted. Raises DeckError in one sentence."""
     kept = strain <= (largest_strain if largest_strain < 1.0 else np.inf)
     strain, stress = np.asarray(strain, dtype=float)[kept], np.asarray(stress, dtype=float)[kept]
-    if len(strain) < LEAST_POINTS:
+    if len(strain) < MIN_POINTS:
         raise DeckError(
-            f"the curve has {len(strain)} points up to strain {largest_strain:g}; a fit needs {LEAST_POINTS} at least"
+            f"the curve has {len(strain)} points up to strain {largest_strain:g}; a fit needs {MIN_POINTS} at least"
         )
     if strain[0] < 0.0 or strain[-1] >= 1.0:
         raise DeckError(

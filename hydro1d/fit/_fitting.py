@@ -1,22 +1,23 @@
-"""Least squares."""
+"""Fitting a law to a measured curve by least squares."""
 
 from __future__ import annotations
 
+import itertools
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
+from hydro1d.analysis.theory import CURVES
 from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, Hydro1dError
-from hydro1d.fit._confidence import Confidence, confidence
-from hydro1d.fit._curve import MeasuredCurve, checked, read_measured
+from hydro1d.fit._confidence import confidence
+from hydro1d.fit._curve import MeasuredCurve, density_line, measured
 from hydro1d.fit._efficiency import Efficiency, energy_efficiency
-from hydro1d.fit._models import MODELS, Model, Parameter
+from hydro1d.fit._models import MODELS, NEED_DENSITY, Parameter
 
-_MOST_POINTS = 1500
+_MAX_POINTS = 1500
 _PENALTY = 1e3
 _WRONG_SHAPE = 0.1  # weighted rms: machines and foams scatter by less
 
@@ -47,7 +48,7 @@ class Fit:
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """The fitted loading curve, Pa."""
-        return _stress(MODELS[self.law], np.asarray(strain, dtype=float), self.density, list(self.values.values()))
+        return _stress(self.law, np.asarray(strain, dtype=float), self.density, self.values)
 
     def table(self) -> str:
         """The parameters with their intervals as text."""
@@ -87,9 +88,8 @@ class Fit:
 
     def deck_fragment(self, material: str = "foam", density: float | None = None) -> str:
         """A [material] table for a deck; without a density that line is left for the user to fill in."""
-        known = self.density if density is None else density
-        given = f'density = "{known:.6g} kg/m^3"' if known is not None else '# density = "... kg/m^3"   # required'
-        lines = [f"[material.{material}]", f'law = "{self.law}"', given]
+        known = density_line(self.density if density is None else density)
+        lines = [f"[material.{material}]", f'law = "{self.law}"', known]
         for name, value in self.values.items():
             doubt = self.doubt(name).removeprefix("none: ")
             lines.append(f"{name} = {_in_deck(value, self.units[name])}" + (f"   # {doubt}" if doubt else ""))
@@ -126,44 +126,67 @@ def fit_curve(
     strain_unit and stress_unit are those of a file whose header names none.
     Raises DeckError for an unknown law, a missing density or a curve that cannot be fitted, FileProblem for the file.
     """
+    _refuse_unfittable(law, density)
+    curve, notes = measured(curve, largest_strain, strain_unit, stress_unit)
+    found = energy_efficiency(curve)
+    parameters = MODELS[law](curve, found)
+    names = [parameter.name for parameter in parameters]
+    difference = _difference(law, names, _thinned(curve), density, found.plateau_stress)
+    values, jacobian = _solve(difference, parameters)
+    trust = confidence(parameters, values, jacobian, difference)
+    named = dict(zip(names, map(float, values), strict=True))
+    residuals = _stress(law, curve.strain, density, named) - curve.stress
+    return Fit(
+        law=law,
+        curve=curve,
+        values=named,
+        intervals={
+            name: (v - h, v + h) for (name, v), h in zip(named.items(), map(float, trust.half_width), strict=True)
+        },
+        units={parameter.name: parameter.unit for parameter in parameters},
+        residuals=residuals,
+        rms=_root_mean_square(residuals),
+        relative_rms=_root_mean_square(difference(values)),
+        efficiency=found,
+        density=density,
+        undetermined=tuple(itertools.compress(names, trust.undetermined)),
+        at_bound=tuple(itertools.compress(names, trust.at_bound)),
+        notes=notes,
+    )
+
+
+def _refuse_unfittable(law: str, density: float | None) -> None:
     if law not in MODELS:
         raise DeckError(
             f"no fit for the law {law[:60]!r}{suggestion(law, fittable())}; there are {', '.join(MODELS)}; "
             'hydro1d laws fit --table writes a curve for law = "table"'
         )
-    model = MODELS[law]
-    if model.needs_density and density is None:
+    if law in NEED_DENSITY and density is None:
         raise DeckError(f"{law} needs the density: its hardening (Eq. 39) depends on it")
-    if isinstance(curve, str | os.PathLike):
-        curve, notes = read_measured(Path(curve), largest_strain, strain_unit, stress_unit)
-    else:
-        curve, notes = checked(curve.strain, curve.stress, largest_strain), ()
-    found = energy_efficiency(curve)
-    parameters = model.parameters(curve, found, density or 1.0)
-    difference = _difference(model, _thinned(curve), density, found.plateau_stress)
-    values, jacobian = _solve(difference, parameters)
-    trust = confidence(parameters, values, jacobian, difference)
-    return _result(law, curve, parameters, values, difference(values), trust, density, found, notes)
+
+
+def _root_mean_square(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def _thinned(curve: MeasuredCurve) -> MeasuredCurve:
-    every = -(-len(curve.strain) // _MOST_POINTS)
+    every = -(-len(curve.strain) // _MAX_POINTS)
     return MeasuredCurve(curve.strain[::every], curve.stress[::every])
 
 
-def _stress(model: Model, strain: np.ndarray, density: float | None, values: list[float]) -> np.ndarray:
-    return np.asarray(model.curve(density or 1.0, *values).stress(strain), dtype=float)
+def _stress(law: str, strain: np.ndarray, density: float | None, values: Mapping[str, float]) -> np.ndarray:
+    return np.asarray(CURVES[law](density=density or 1.0, **values).stress(strain), dtype=float)
 
 
 def _difference(
-    model: Model, curve: MeasuredCurve, density: float | None, plateau: float
+    law: str, names: Sequence[str], curve: MeasuredCurve, density: float | None, plateau: float
 ) -> Callable[[np.ndarray], np.ndarray]:
     """The function that is minimised: parameters -> law − measured, weighted."""
     weight = 1.0 / np.hypot(plateau, curve.stress)
 
     def difference(values: np.ndarray) -> np.ndarray:
         try:
-            gap = _stress(model, curve.strain, density, list(values)) - curve.stress
+            gap = _stress(law, curve.strain, density, dict(zip(names, values, strict=True))) - curve.stress
             return np.clip(gap * weight, -_PENALTY, _PENALTY)
         except ValueError:  # parameters that make no curve
             return np.full(len(curve.strain), _PENALTY)
@@ -194,34 +217,3 @@ def _solve(
     if best is None or not np.isfinite(best.cost) or best.cost >= 0.1 * _PENALTY**2:
         raise Hydro1dError("no parameters of this law come near the curve")
     return best.x, best.jac
-
-
-def _result(
-    law: str,
-    curve: MeasuredCurve,
-    parameters: list[Parameter],
-    values: np.ndarray,
-    differences: np.ndarray,
-    trust: Confidence,
-    density: float | None,
-    found: Efficiency,
-    notes: tuple[str, ...],
-) -> Fit:
-    names = [parameter.name for parameter in parameters]
-    half, vague, ended = trust
-    residuals = _stress(MODELS[law], curve.strain, density, list(values)) - curve.stress
-    return Fit(
-        law,
-        curve,
-        dict(zip(names, map(float, values), strict=True)),
-        {name: (float(v - h), float(v + h)) for name, v, h in zip(names, values, half, strict=True)},
-        {parameter.name: parameter.unit for parameter in parameters},
-        residuals,
-        float(np.sqrt(np.mean(residuals**2))),
-        float(np.sqrt(np.mean(differences**2))),
-        found,
-        density,
-        tuple(name for name, is_vague in zip(names, vague, strict=True) if is_vague),
-        tuple(name for name, is_ended in zip(names, ended, strict=True) if is_ended),
-        notes,
-    )

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from hydro1d import analytic
 from hydro1d.fit._curve import MeasuredCurve
 from hydro1d.fit._efficiency import Efficiency
 
@@ -20,14 +19,6 @@ class Parameter(NamedTuple):
     start: float
     low: float
     high: float
-
-
-class Model(NamedTuple):
-    """Parameters, and the curve that they and the density make."""
-
-    parameters: Callable[[MeasuredCurve, Efficiency, float], list[Parameter]]
-    curve: Callable[..., Any]
-    needs_density: bool = False
 
 
 def first_slope(curve: MeasuredCurve, level: float) -> float:
@@ -65,46 +56,42 @@ def _densification(found: Efficiency, last: float) -> Parameter:
     return Parameter("densification_strain", "1", start, 0.4 * start, min(0.98, max(last, start + 0.01)))
 
 
-def _tangent(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
-    return [
-        *_common(curve, found),
-        Parameter("beta", "1", 0.5, 1e-4, 1e3),
-        Parameter("gamma", "1", 0.7, 0.02, 0.9999),
-    ]
-
-
 def _common(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
-    plateau = found.plateau_stress
-    last = float(curve.strain[-1])
+    plateau, last = found.plateau_stress, float(curve.strain[-1])
     return [_elastic(curve, found), _plateau("plateau_stress", plateau), _densification(found, last)]
 
 
-def _epph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+def _tangent(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
+    return [*_common(curve, found), Parameter("beta", "1", 0.5, 1e-4, 1e3), Parameter("gamma", "1", 0.7, 0.02, 0.9999)]
+
+
+def _epph(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
     return [*_common(curve, found), Parameter("shock_slope", "s/m", 1e-3, 1e-6, 1.0)]
 
 
-def _trilinear(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+def _trilinear(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
     slope = 10.0 * found.plateau_stress
     return [*_common(curve, found), Parameter("locking_modulus", "Pa", slope, 1e-2 * slope, 1e4 * slope)]
 
 
-def _rph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
+def _rph(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
     plateau = found.plateau_stress
     hardening = Parameter("hardening", "Pa", 0.1 * plateau, 1e-6 * plateau, 100.0 * plateau)
     return [_elastic(curve, found), _plateau("plateau_stress", 0.8 * plateau), hardening]
 
 
-def _eph(curve: MeasuredCurve, found: Efficiency, density: float) -> list[Parameter]:
-    plateau = found.plateau_stress
+def _eph(curve: MeasuredCurve, found: Efficiency) -> list[Parameter]:
     modulus = _elastic(curve, found)
     hardening = Parameter("hardening_modulus", "Pa", 0.01 * modulus.start, 1e-8 * modulus.start, 0.9 * modulus.low)
-    return [modulus, _plateau("yield_stress", 0.8 * plateau), hardening]
+    return [modulus, _plateau("yield_stress", 0.8 * found.plateau_stress), hardening]
 
 
-MODELS: dict[str, Model] = {
-    "epph-tangent": Model(_tangent, analytic.TangentEPPH),
-    "epph": Model(_epph, analytic.EPPH, needs_density=True),
-    "trilinear": Model(_trilinear, analytic.Trilinear),
-    "rph": Model(_rph, analytic.RPH),
-    "eph": Model(_eph, analytic.EPH),
+# What of a law is fitted; its curve is that of `hydro1d.analysis.theory`.
+MODELS: dict[str, Callable[[MeasuredCurve, Efficiency], list[Parameter]]] = {
+    "epph-tangent": _tangent,
+    "epph": _epph,
+    "trilinear": _trilinear,
+    "rph": _rph,
+    "eph": _eph,
 }
+NEED_DENSITY = ("epph",)  # their curve depends on it, not only the speed of their waves

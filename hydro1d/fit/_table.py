@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from pydantic import ValidationError
 
 from hydro1d.errors import DeckError
-from hydro1d.fit._curve import MeasuredCurve, checked, read_measured
+from hydro1d.fit._curve import MeasuredCurve, density_line, measured
 from hydro1d.fit._efficiency import WINDOW, Efficiency, averaged, energy_efficiency
 from hydro1d.fit._models import elastic_modulus
 from hydro1d.laws.table import Table
@@ -18,7 +17,7 @@ from hydro1d.laws.table import Table
 _NEAR = 0.005  # of √(plateau² + stress²): how far a straight line between two points may miss those between
 _NOISE = 3.0  # standard deviations that a straight line may miss: steps within them are not the foam's
 _ON_LINE = 0.97  # of the elastic line: a point above is on it
-_FEWEST_ELASTIC = 2  # points before the first corner that make a slope
+_MIN_ELASTIC = 2  # points before the first corner that make a slope
 _UNSETTLED = 0.003  # of strain before the end: a mean over less still has the noise
 _MPA = 1e6
 
@@ -52,16 +51,8 @@ class Tabulated:
 
     def deck_fragment(self, material: str, file: str, density: float | None) -> str:
         """A [material] table for a deck; without a density that line is left for the user to fill in."""
-        known = f'density = "{density:.6g} kg/m^3"' if density is not None else '# density = "... kg/m^3"   # required'
-        return "\n".join(
-            [
-                f"[material.{material}]",
-                'law = "table"',
-                known,
-                f'modulus = "{self.modulus / _MPA:.6g} MPa"',
-                f'curve = "{file}"',
-            ]
-        )
+        lines = [f"[material.{material}]", 'law = "table"', density_line(density)]
+        return "\n".join([*lines, f'modulus = "{self.modulus / _MPA:.6g} MPa"', f'curve = "{file}"'])
 
 
 def tabulate(
@@ -76,11 +67,7 @@ def tabulate(
     regression: a peak and the trough behind it become a level between them), and thinned to points between which straight
     lines stay within 0.5 %, or within what is left of the noise. Raises DeckError and FileProblem as `fit_curve` does.
     """
-    notes: tuple[str, ...] = ()
-    if isinstance(curve, str | os.PathLike):
-        curve, notes = read_measured(Path(curve), largest_strain, strain_unit, stress_unit)
-    else:
-        curve = checked(curve.strain, curve.stress, largest_strain)
+    curve, notes = measured(curve, largest_strain, strain_unit, stress_unit)
     found = energy_efficiency(curve)
     slope = elastic_modulus(curve, found)
     mean = averaged(curve.strain, curve.stress)
@@ -90,11 +77,9 @@ def tabulate(
     kept = first + _corners(strain[first:], stress[first:], near * np.hypot(found.plateau_stress, stress[first:]))
     points = np.column_stack([strain[kept], stress[kept]])
     modulus = max(slope, _least_modulus(points))
-    if np.count_nonzero((curve.strain > 0.0) & (curve.strain < points[0, 0])) < _FEWEST_ELASTIC:
-        notes = (
-            *notes,
-            "the curve has hardly a point on its elastic line; the modulus is a guess: put in the right one",
-        )
+    if np.count_nonzero((curve.strain > 0.0) & (curve.strain < points[0, 0])) < _MIN_ELASTIC:
+        guess = "the curve has hardly a point on its elastic line; the modulus is a guess: put in the right one"
+        notes = (*notes, guess)
     corners = _law(points, modulus).corners
     residuals = np.interp(curve.strain, *corners.T) - curve.stress
     return Tabulated(curve, points, modulus, corners, residuals, float(np.sqrt(np.mean(residuals**2))), found, notes)

@@ -1,4 +1,4 @@
-"""Several runs beside each other."""
+"""Several runs in the same axes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from hydro1d.plot._base import (
     times_of,
 )
 from hydro1d.plot._frames import along
-from hydro1d.plot._histories import MOST_ROWS, _bulk, extremes
+from hydro1d.plot._histories import MAX_ROWS, _bulk, extremes
 from hydro1d.plot._units import scale_for, words
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _histories(axes: Axes, runs: Sequence[Run], names: Sequence[str], quantity: 
     usual = [_bulk(run.history[quantity]) for run in runs]
     scale = scale_for(runs[0].describe(f"history/{quantity}").units, usual)
     for place, (run, name) in enumerate(zip(runs, names, strict=True)):
-        time, values = extremes(run.history["time"], run.history[quantity], MOST_ROWS)
+        time, values = extremes(run.history["time"], run.history[quantity], MAX_ROWS)
         axes.plot(time / clock.size, values / scale.size, color=PALETTE[place % 8], linewidth=1.2, label=name)
     axes.set_xlabel(clock.label("time t"))
     axes.set_ylabel(scale.label(words(quantity)))

@@ -28,7 +28,7 @@ PANELS: dict[str, tuple[str, ...]] = {
     "compaction front": ("front_position", "distal_front_position"),
 }
 END_STRESSES = ("left_stress", "right_stress")
-MOST_ROWS = 4000
+MAX_ROWS = 4000
 PULSE_POINTS = 400
 _STYLES = ("-", "--", "-.", ":")
 
@@ -64,7 +64,7 @@ def draw_history(axes: Axes, run: Run, names: Sequence[str], label: str) -> None
     scale = scale_for(units, [_bulk(values) for _, _, values in curves])
     clock = clock_of(run)
     for place, (text, time, values) in enumerate(curves):
-        x, y = extremes(time, values, MOST_ROWS)
+        x, y = extremes(time, values, MAX_ROWS)
         style = _STYLES[place % len(_STYLES)] if len(curves) <= len(_STYLES) else "-"
         axes.plot(x / clock.size, y / scale.size, label=text, linewidth=1.2, linestyle=style)
     applied = applied_pressures(run) if any(name in END_STRESSES for name in names) else []
@@ -121,8 +121,12 @@ def _curves(run: Run, name: str) -> list[tuple[str, np.ndarray, np.ndarray]]:
         where = [scale.show(float(x)) for x in run.probes["probe"]]
         found = run[name]
         return [(f"{words(name[7:])} at X = {text}", run.probes["time"], found[:, k]) for k, text in enumerate(where)]
-    values = front_path(run, name) if name in FRONTS else run.history[name]
-    return [(words(name), run.history["time"], values)]
+    return [(words(name), run.history["time"], recorded(run, name))]
+
+
+def recorded(run: Run, name: str) -> np.ndarray:
+    """A quantity of the history; of a front, its path."""
+    return front_path(run, name) if name in FRONTS else run.history[name]
 
 
 def _asked(run: Run, quantities: Sequence[str]) -> dict[str, tuple[str, ...]]:

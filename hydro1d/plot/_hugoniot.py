@@ -35,9 +35,9 @@ if TYPE_CHECKING:
 NO_CURVE = "no curve: the law is code of its user's; name the deck to have it run and drawn"
 PATHS = 3
 SNAPSHOTS = 5
-LEAST_JUMP = 0.1  # of strain: weaker fronts do not crush
+MIN_JUMP = 0.1  # of strain: weaker fronts do not crush
 GIVEN_BACK = 0.02  # of a front's jump of strain: zones that have unloaded by more are not its two sides any more
-LEAST_STRAIN = -0.1  # foam that opens goes to any strain; the figure does not follow
+MIN_STRAIN = -0.1  # foam that opens goes to any strain; the figure does not follow
 _REACH = 60  # zones on either side of a front that are looked at
 
 
@@ -83,7 +83,7 @@ def draw_hugoniot(
     low = min(float(np.nanmin(stress)), 0.0)
     axes.set_ylim((1.05 * low if low < -0.02 * top else -0.02 * top) / scale.size, top / scale.size)
     left, right = axes.get_xlim()
-    axes.set_xlim(max(left, LEAST_STRAIN), right)
+    axes.set_xlim(max(left, MIN_STRAIN), right)
     axes.set_xlabel("strain ε")
     axes.set_ylabel(scale.label("stress σ"))
     legend(axes, loc="upper left")
@@ -121,7 +121,7 @@ def _crossing(run: Run, index: int, where: float) -> Crossing | None:
     behind, ahead = first - 2, last + 2
     if q[core] <= 0.0 or behind < low or ahead >= high or run["zone_layer"][behind] != run["zone_layer"][ahead]:
         return None
-    if strain[behind] - strain[ahead] < LEAST_JUMP or not _has_loaded(run, index, behind, ahead):
+    if strain[behind] - strain[ahead] < MIN_JUMP or not _has_loaded(run, index, behind, ahead):
         return None
     return Crossing(index, slice(first - 2, last + 3), (strain[behind], stress[behind]), (strain[ahead], stress[ahead]))
 

@@ -1,4 +1,4 @@
-"""What a law is like, before anything is run."""
+"""A law by itself, without a run: loading, moduli, Hugoniot, energy."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def loads_by_strain(law: Law) -> bool:
     return answers[0] == answers[1] == answers[2]
 
 
-_LEAST_SHARE = 1e-6  # of the energy: a front that dissipates less is no shock
+_MIN_SHARE = 1e-6  # of the energy: a front that dissipates less is no shock
 _EVEN = 1.0 + 1e-9  # slopes as equal as their rounding are one line
 
 
@@ -108,7 +108,7 @@ def hugoniot_of(law: Law, top: float) -> Hugoniot:
     rise, change = stress - stress[foot], strain - strain[foot]
     crossed = 0.5 * (stress + stress[foot]) * change
     yielded = float(np.interp(min(float(getattr(law, "yield_strain", 0.0)), top), strain, energy))
-    keep = crossed - (energy - energy[foot]) > _LEAST_SHARE * crossed
+    keep = crossed - (energy - energy[foot]) > _MIN_SHARE * crossed
     rise, change = rise[keep], change[keep]
     return Hugoniot(
         strain[keep],

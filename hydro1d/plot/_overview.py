@@ -1,4 +1,4 @@
-"""One figure that says what happened."""
+"""The overview of a run: four panels in one figure."""
 
 from __future__ import annotations
 

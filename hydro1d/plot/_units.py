@@ -22,7 +22,7 @@ _LADDERS: dict[str, tuple[int, tuple[tuple[float, str], ...]]] = {
     "kg m-1 s-1": (0, ((1e3, "10³ kg/(m s)"), (1.0, "kg/(m s)"))),
     "1": (0, ((1.0, ""),)),
 }
-_LEAST, _MOST = 0.01, 1e5
+_MIN_SHOWN, _MAX_SHOWN = 0.01, 1e5
 
 _WORDS = {
     "stress": "stress σ",
@@ -60,9 +60,9 @@ def scale_for(units: str, values: Any = None) -> Scale:
     preferred, ladder = _LADDERS.get(units, (0, ((1.0, "" if units == "1" else units),)))
     largest = _largest(values)
     place = preferred
-    while largest > 0.0 and largest < _LEAST * ladder[place][0] and place + 1 < len(ladder):
+    while largest > 0.0 and largest < _MIN_SHOWN * ladder[place][0] and place + 1 < len(ladder):
         place += 1
-    while largest > _MOST * ladder[place][0] and place > 0:
+    while largest > _MAX_SHOWN * ladder[place][0] and place > 0:
         place -= 1
     return Scale(*ladder[place])
 

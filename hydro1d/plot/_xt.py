@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from hydro1d.plot._base import RunOrPath
     from hydro1d.store import Run
 
-MOST_ZONES, MOST_TIMES = 800, 600  # more than that no page shows
+MAX_ZONES, MAX_TIMES = 800, 600  # more than that no page shows
 _LINES = {"proximal front": ("#ffffff", "-"), "distal front": ("#ffffff", "--")}
 
 
@@ -69,7 +69,7 @@ def draw_xt(axes: Axes, run: Run, quantity: str = "stress", frame: str = "lagran
 
 def _mesh(run: Run, values: np.ndarray, frame: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Edges (m, s) of the cells and their values, thinned to what can be seen."""
-    every, step = -(-values.shape[1] // MOST_ZONES), -(-len(values) // MOST_TIMES)
+    every, step = -(-values.shape[1] // MAX_ZONES), -(-len(values) // MAX_TIMES)
     cells = np.arange(0, values.shape[1], every)
     nodes = np.append(cells, values.shape[1])
     rows = np.arange(0, len(values), step)

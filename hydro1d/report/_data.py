@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydro1d.analysis.fronts import front_path
 from hydro1d.plot._base import PALETTE
-from hydro1d.plot._frames import FRONTS
-from hydro1d.plot._histories import END_STRESSES, PANELS, applied_pressures, extremes
+from hydro1d.plot._histories import END_STRESSES, PANELS, applied_pressures, extremes, recorded
 from hydro1d.plot._units import Scale, scale_for, words
 
 if TYPE_CHECKING:
     from hydro1d.report._theory import Theory
     from hydro1d.store import Run
 
-MOST_TIMES, MOST_POINTS, MOST_ROWS = 100, 400, 1600
+MAX_TIMES, MAX_POINTS, MAX_ROWS = 100, 400, 1600
 THEORY_POINTS = 48
 QUANTITIES = ("stress", "strain", "velocity")
 
@@ -33,7 +31,7 @@ def _profiles(run: Run, theory: Theory | None) -> dict[str, Any] | None:
         return None
     rows = shown_rows(run)
     zones = len(run["zone_coordinate"])
-    chosen = np.unique(np.linspace(0, zones - 1, min(zones, MOST_POINTS)).round().astype(int))
+    chosen = np.unique(np.linspace(0, zones - 1, min(zones, MAX_POINTS)).round().astype(int))
     length, clock = scale_for("m", run["node_coordinate"]), scale_for("s", time)
     position = run["position"][rows]
     centre = 0.5 * (position[:, :-1] + position[:, 1:])[:, chosen]
@@ -52,14 +50,14 @@ def _profiles(run: Run, theory: Theory | None) -> dict[str, Any] | None:
 def shown_rows(run: Run) -> np.ndarray:
     """Numbers of the profiles that the page holds."""
     stored = len(run.time)
-    return np.unique(np.linspace(0, stored - 1, min(stored, MOST_TIMES)).round().astype(int))
+    return np.unique(np.linspace(0, stored - 1, min(stored, MAX_TIMES)).round().astype(int))
 
 
 def telling_row(run: Run, theory: Theory | None) -> int:
     """Which of the page's profiles to show first.
 
-    The last one at which theory and code solve the same equations; without one, that in which the column is most of
-    two minds: crushed here, not there.
+    The last one at which theory and code solve the same equations; without one, that with the largest standard deviation
+    of the strain, in which one part of the column is crushed and another is not.
     """
     rows = shown_rows(run)
     exact = 0 if theory is None else int(np.sum(run.time[rows] <= theory.exact_until * (1 + 1e-12))) - 1
@@ -137,17 +135,13 @@ def _histories(run: Run) -> dict[str, Any]:
     clock = scale_for("s", run.history["time"])
     panels = []
     for label, names in PANELS.items():
-        found = [(words(name), run.history["time"], _column(run, name)) for name in names if name in run.history]
+        found = [(words(name), run.history["time"], recorded(run, name)) for name in names if name in run.history]
         if any(name in END_STRESSES for name in names):
             found += applied_pressures(run)
         panels.append(_history(label, found, run.describe(f"history/{names[0]}").units, clock))
     panels += _shares(run, clock)
     panels += _probes(run, clock)
     return {"xlabel": clock.label("time t"), "clock": clock.unit, "panels": [panel for panel in panels if panel]}
-
-
-def _column(run: Run, name: str) -> np.ndarray:
-    return front_path(run, name) if name in FRONTS else run.history[name]
 
 
 def _shares(run: Run, clock: Scale) -> list[dict[str, Any] | None]:
@@ -184,6 +178,6 @@ def _history(
     scale = scale_for(units, usual)
     series = []
     for name, time, values in curves:
-        x, y = extremes(time, values, MOST_ROWS)
+        x, y = extremes(time, values, MAX_ROWS)
         series.append({"name": name, "x": _floats(x / clock.size), "y": _floats(y / scale.size)})
     return {"label": scale.label(label), "unit": scale.unit, "series": series, "usual": max(usual) / scale.size}

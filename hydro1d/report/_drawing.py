@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from hydro1d.store import Run
 
 _WIDTH, _LEFT, _TOP, _HEIGHT = 860.0, 130.0, 34.0, 84.0
-_LEAST = 26.0  # a thin layer is still seen
+_MIN_WIDTH = 26.0  # a layer thinner than this in the drawing would not be seen
 
 
 def column_svg(run: Run) -> str:
@@ -22,7 +22,7 @@ def column_svg(run: Run) -> str:
     layers = run.deck.get("layer", [])
     room = _WIDTH - 2 * _LEFT
     sizes = np.array([float(layer["thickness"]) for layer in layers])
-    widths = np.maximum(sizes / sizes.sum() * room, min(_LEAST, room / len(sizes)))
+    widths = np.maximum(sizes / sizes.sum() * room, min(_MIN_WIDTH, room / len(sizes)))
     widths *= room / widths.sum()
     names = list(dict.fromkeys(str(layer["material"]) for layer in layers))
     parts, x = [], _LEFT

@@ -1,4 +1,4 @@
-"""The numbers that answer what a user ran the code for."""
+"""The headline and the tables of numbers on the page."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from hydro1d.analysis.energy import elastic_energy
 from hydro1d.analysis.openings import find_openings
 from hydro1d.analysis.transmission import NOT_REACHED, Transmission, transmission_of
 from hydro1d.errors import FileProblem
@@ -84,7 +85,7 @@ def uncrushed(run: Run) -> float | None:
 
 
 def key_numbers(run: Run, deck: Deck | None) -> list[Number]:
-    """Loads, crushing, steps."""
+    """The table of key numbers: loads, crushing, openings, time steps."""
     require_history(run)
     transmission, history = transmission_of(run, deck), run.history
     pressure = scale_for("Pa", [transmission.transmitted, transmission.applied])
@@ -166,7 +167,7 @@ def energy_numbers(run: Run, deck: Deck | None) -> list[Number]:
     rows.append(
         Number("dissipated in fronts", scale.show(viscous), f"{100 * viscous / gained:.3g} % of the internal gain")
     )
-    stored = elastic_energy(run, deck)
+    stored = _elastic(run, deck)
     if stored is not None:
         rest = gained - viscous - stored
         share = f"{100 * stored / gained:.3g} %"
@@ -175,18 +176,12 @@ def energy_numbers(run: Run, deck: Deck | None) -> list[Number]:
     return rows
 
 
-def elastic_energy(run: Run, deck: Deck | None) -> float | None:
+def _elastic(run: Run, deck: Deck | None) -> float | None:
     """Energy (J/m²) that the column would give back on unloading; None where a law does not tell."""
     if deck is None or len(run.time) == 0 or run.time[-1] < run.history["time"][-1] * (1 - 1e-9):
         return None
-    size = np.diff(run["node_coordinate"])
-    strain, stress, largest = run["strain"][-1], run["stress"][-1], run["largest_strain"][-1]
-    total = 0.0
-    for layer, part in zip(deck.layers, run.layers, strict=True):
-        law = layer.law
-        if getattr(law, "unloading", None) != "elastic" or law.own_variables():
-            return None
-        for zone in range(part.zones.start, part.zones.stop):
-            stiffness = law.at(strain[zone], largest[zone]).stiffness
-            total += 0.5 * float(stress[zone]) ** 2 / stiffness * float(size[zone])
-    return total
+    laws = [layer.law for layer in deck.layers]
+    if any(getattr(law, "unloading", None) != "elastic" or law.own_variables() for law in laws):
+        return None
+    stored = elastic_energy(run, deck)
+    return stored if np.isfinite(stored) else None

@@ -1,4 +1,4 @@
-"""Putting the page together."""
+"""The page: its sections, tables and pictures, put together as one text of HTML."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def _file(name: str) -> str:
 
 
 def _inert(data: str) -> str:
-    """JSON that cannot end its element."""
+    """JSON in which no text can end the script element around it."""
     return data.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 

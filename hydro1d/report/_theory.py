@@ -10,6 +10,7 @@ import numpy as np
 
 from hydro1d import analytic
 from hydro1d.analysis.fronts import front_path
+from hydro1d.analysis.theory import curve_of
 from hydro1d.plot._units import Scale, scale_for
 
 if TYPE_CHECKING:
@@ -85,44 +86,12 @@ _LOADS = (
     "of constant velocity, or, against a wall, by a striker."
 )
 _UNLOADING = (
-    "the theory takes the crushed foam as a rigid block, slowed as one body by the stress ahead of its front: the stress in "
+    "theory takes the crushed foam as a rigid block, slowed as one body by the stress ahead of its front: the stress in "
     "it is a straight line, its velocity one number, its strain what the front left. Here crushed foam unloads on a steep "
     "elastic line. Waves run through the block, it springs back and rings about the motion of the theory, and the front "
     "hears of a change at its other end only when a wave has caught up with it. Fronts and times therefore differ by some "
     'per cent, and single stresses by more; unloading_modulus = "rigid" in the deck comes closer to the theory'
 )
-
-
-def curve_of(law: dict[str, Any]) -> analytic.Curve | None:
-    """The loading curve of a law as the deck has it, for those laws that the theory knows."""
-    values = {
-        key: value for key, value in law.items() if isinstance(value, int | float) and not isinstance(value, bool)
-    }
-
-    def take(*names: str) -> list[float]:
-        return [float(values[name]) for name in names]
-
-    plateau = ("plateau_stress", "densification_strain")
-    kind = law.get("law")
-    if kind == "elastic":
-        return analytic.Elastic(*take("density", "modulus"))
-    if kind == "epph":
-        return analytic.EPPH(*take("density", "modulus", *plateau, "shock_slope"))
-    if kind == "epph-tangent":
-        return analytic.TangentEPPH(*take("density", "modulus", *plateau, "beta", "gamma"))
-    if kind == "trilinear":
-        return analytic.Trilinear(*take("density", "modulus", *plateau, "locking_modulus"))
-    if kind == "rppl":
-        density, stress, strain, ratio = take("density", *plateau, "stiffness")
-        return analytic.stiff_rppl(density, stress, strain, ratio * stress)
-    if kind == "eppr":
-        density, modulus, stress, strain, ratio = take("density", "modulus", *plateau, "stiffness")
-        return analytic.stiff_eppr(density, modulus, stress, strain, ratio * stress)
-    if kind == "eph":
-        return analytic.EPH(*take("density", "modulus", "yield_stress", "hardening_modulus"))
-    if kind == "rph":
-        return analytic.RPH(*take("density", "modulus", "plateau_stress", "hardening"))
-    return None
 
 
 def _solve(run: Run, curve: analytic.Curve, length: float) -> Theory | None:
@@ -180,27 +149,13 @@ def _column(name: str, solution: CompactionColumn, run: Run, pulse: float = 0.0)
     rows += [_block_velocity(run, solution, t) for t in moments[1:3]]
     if late:
         felt = float(np.interp(late[-1], run.history["time"], run.history["right_stress"]))
-        rows.append(
-            Row(
-                f"support stress at {_clock(late[-1])}",
-                float(solution.history(late[-1]).right_stress),
-                felt,
-                _pa(felt),
-                late[-1],
-            )
-        )
+        exact = float(solution.history(late[-1]).right_stress)
+        rows.append(Row(f"support stress at {_clock(late[-1])}", exact, felt, scale_for("Pa", felt), late[-1]))
     rows += _crushed(run, solution)
-    ended = (
-        "the two fronts meet"
-        if np.isclose(until, solution.meeting_time)
-        else "the crushed block comes to rest, or with the run"
-    )
-    assumes = (
-        f"While the pulse lasts it is exact. Afterwards {_UNLOADING}."
-        if pulse > 0.0
-        else f"{_UNLOADING[0].upper()}{_UNLOADING[1:]}."
-    )
-    assumes += f" It ends at {_clock(until)}, when {ended}."
+    met = np.isclose(until, solution.meeting_time)
+    ended = "the two fronts meet" if met else "the crushed block comes to rest, or with the run"
+    begun = "While the pulse lasts it is exact. Afterwards the" if pulse > 0.0 else "The"
+    assumes = f"{begun} {_UNLOADING}. It ends at {_clock(until)}, when {ended}."
     source = f"Eqs. 39–47 of {_DOI}, on this law's curve"
     return Theory(name, source, assumes, min(pulse, until), until, solution, solution.jumps, tuple(rows))
 
@@ -211,20 +166,19 @@ def _behind_front(run: Run, index: int, front: float, state: analytic.State) -> 
     inside = (where > 0.15 * front) & (where < 0.8 * front)
     if inside.sum() < 3:
         return []
-    speed = 0.5 * (run["velocity"][index][:-1] + run["velocity"][index][1:])
-    measured = {"strain": run["strain"][index], "stress": run["stress"][index], "velocity": speed}
-    scales = {"strain": scale_for("1"), "stress": _pa(state.stress), "velocity": scale_for("m s-1", state.velocity)}
-    time = _clock(float(run.time[index]))
-    return [
-        Row(
-            f"{name} behind the front at {time}",
-            float(getattr(state, name)),
-            float(np.median(values[inside])),
-            scales[name],
-            float(run.time[index]),
-        )
-        for name, values in measured.items()
-    ]
+    time, rows = float(run.time[index]), []
+    measured = {"strain": run["strain"][index], "stress": run["stress"][index], "velocity": _zone_velocity(run, index)}
+    for (name, values), unit in zip(measured.items(), ("1", "Pa", "m s-1"), strict=True):
+        exact = float(getattr(state, name))
+        median = float(np.median(values[inside]))
+        rows.append(Row(f"{name} behind the front at {_clock(time)}", exact, median, scale_for(unit, exact), time))
+    return rows
+
+
+def _zone_velocity(run: Run, index: int) -> np.ndarray:
+    """Velocity in the middle of the zones at one output time, m/s."""
+    nodes = run["velocity"][index]
+    return 0.5 * (nodes[:-1] + nodes[1:])
 
 
 def _fronts(run: Run, times: list[float], exact: Callable[[float], float], name: str, words: str) -> list[Row]:
@@ -244,8 +198,7 @@ def _block_velocity(run: Run, solution: CompactionColumn, time: float) -> Row:
     front = float(solution.history(run.time[index]).front)
     inside = run["zone_coordinate"] < front
     mass = run["zone_mass"][inside]
-    speed = 0.5 * (run["velocity"][index][:-1] + run["velocity"][index][1:])[inside]
-    mean = float(np.sum(mass * speed) / np.sum(mass)) if inside.any() else np.nan
+    mean = float(np.sum(mass * _zone_velocity(run, index)[inside]) / np.sum(mass)) if inside.any() else np.nan
     exact = float(solution.history(run.time[index]).velocity)
     label = f"mean velocity of the crushed block at {_clock(float(run.time[index]))}"
     return Row(label, exact, mean, scale_for("m s-1", exact), float(run.time[index]))
@@ -254,10 +207,8 @@ def _block_velocity(run: Run, solution: CompactionColumn, time: float) -> Row:
 def _crushed(run: Run, solution: CompactionColumn) -> list[Row]:
     left = run.history["uncrushed_fraction"]
     if np.isfinite(solution.meeting_time) and (left <= 0.0).any():
-        measured = float(run.history["time"][int(np.argmax(left <= 0.0))])
-        return [
-            Row("fully crushed at", solution.meeting_time, measured, scale_for("s", measured), solution.meeting_time)
-        ]
+        at, measured = solution.meeting_time, float(run.history["time"][int(np.argmax(left <= 0.0))])
+        return [Row("fully crushed at", at, measured, scale_for("s", measured), at)]
     return []
 
 
@@ -268,7 +219,3 @@ def _last_before(run: Run, time: float) -> int:
 
 def _clock(time: float) -> str:
     return scale_for("s", time).show(time, 3)
-
-
-def _pa(value: float) -> Scale:
-    return scale_for("Pa", value)

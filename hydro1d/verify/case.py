@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -32,3 +33,9 @@ class Case:
     about: str
     rows: int
     study: Callable[[Table, Effort], None]
+
+    @classmethod
+    def of(cls, name: str, title: str, rows: int, study: Callable[[Table, Effort], None]) -> Case:
+        """A case about which the docstring of its study says what there is to say."""
+        told = inspect.getdoc(getattr(study, "func", study)) or ""
+        return cls(name, title, " ".join(told.split()), rows, study)

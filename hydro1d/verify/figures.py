@@ -11,8 +11,9 @@ import numpy as np
 from hydro1d.verify.rows import Line, Panel
 
 EXACT, RUNS = "#222222", ("#1769aa", "#d1495b", "#3a7d44", "#8d6a9f", "#c98b1d", "#4f9da6")
-MOST_COLUMNS = 3
-MOST_POINTS = 700  # of a line: what a column of text can show
+TINY = 1e-18  # what a logarithmic axis shows in place of zero
+MAX_COLUMNS = 3
+MAX_POINTS = 700  # of a line: a figure as wide as a column of text shows no more
 
 
 def svg(panels: tuple[Panel, ...], prefix: str) -> str:
@@ -28,7 +29,7 @@ def svg(panels: tuple[Panel, ...], prefix: str) -> str:
         "font.size": 9.0,
         "axes.titlesize": 9.5,
     }
-    columns = min(len(panels), MOST_COLUMNS)
+    columns = min(len(panels), MAX_COLUMNS)
     rows = -(-len(panels) // columns)
     with matplotlib.rc_context(style):
         figure = Figure(figsize=(4.6 * columns, 3.3 * rows), layout="constrained")
@@ -40,7 +41,15 @@ def svg(panels: tuple[Panel, ...], prefix: str) -> str:
             axes.set_axis_off()
         out = io.StringIO()
         figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return _inline(out.getvalue(), prefix, 100 * columns // MOST_COLUMNS)
+    return _inline(out.getvalue(), prefix, 100 * columns // MAX_COLUMNS)
+
+
+LOOKS: dict[str, dict[str, Any]] = {
+    "exact": {"linestyle": "-", "linewidth": 2.2, "alpha": 0.45},
+    "points": {"linestyle": "none", "marker": "o", "markersize": 3.0, "markerfacecolor": "none"},
+    "run": {"linestyle": "-", "linewidth": 1.0},
+    "convergence": {"linestyle": "-", "marker": "o", "markersize": 3.5, "linewidth": 1.0},
+}
 
 
 def _draw(axes: Any, panel: Panel) -> None:
@@ -48,22 +57,10 @@ def _draw(axes: Any, panel: Panel) -> None:
     for item in panel.lines:
         x, y = _thinned(item)
         colour = EXACT if item.style == "exact" else next(colours)
-        if panel.log:
-            axes.loglog(
-                x,
-                np.maximum(np.abs(y), 1e-18),
-                "o-",
-                color=colour,
-                markersize=3.5,
-                linewidth=1.0,
-                label=item.label or None,
-            )
-        elif item.style == "exact":
-            axes.plot(x, y, "-", color=colour, linewidth=2.2, alpha=0.45, label=item.label or None)
-        elif item.style == "points":
-            axes.plot(x, y, "o", color=colour, markersize=3.0, markerfacecolor="none", label=item.label or None)
-        else:
-            axes.plot(x, y, "-", color=colour, linewidth=1.0, label=item.label or None)
+        y, look = (np.maximum(np.abs(y), TINY), "convergence") if panel.log else (y, item.style)
+        axes.plot(x, y, color=colour, label=item.label or None, **LOOKS[look])
+    if panel.log:
+        axes.set(xscale="log", yscale="log")
     axes.set_title(panel.title)
     axes.set_xlabel(panel.x_label)
     axes.set_ylabel(panel.y_label)
@@ -79,7 +76,7 @@ def _slope(axes: Any, panel: Panel) -> None:
     from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
     x = np.unique(np.concatenate([item.x for item in panel.lines]))
-    lowest = min(float(np.min(np.maximum(np.abs(item.y), 1e-18))) for item in panel.lines)
+    lowest = min(float(np.min(np.maximum(np.abs(item.y), TINY))) for item in panel.lines)
     power = 1.0 if panel.x_label == "zones" else 0.5
     axes.loglog(x, 0.6 * lowest * (x[-1] / x) ** power, ":", color="#888888", linewidth=1.0)
     name = "order 1" if power == 1.0 else "order ½"
@@ -90,8 +87,8 @@ def _slope(axes: Any, panel: Panel) -> None:
 
 
 def _thinned(item: Line) -> tuple[np.ndarray, np.ndarray]:
-    """At most MOST_POINTS points, and no NaN at the ends of the thinning."""
-    step = max(1, len(item.x) // (MOST_POINTS if item.style != "points" else 150))
+    """At most MAX_POINTS points, and no NaN at the ends of the thinning."""
+    step = max(1, len(item.x) // (MAX_POINTS if item.style != "points" else 150))
     return item.x[::step], item.y[::step]
 
 
@@ -100,9 +97,5 @@ def _inline(text: str, prefix: str, percent: int) -> str:
     body = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
     body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', body)
     body = re.sub(r'(xlink:href="#|url\(#)', rf"\g<1>{prefix}-", body)
-    return re.sub(
-        r'(<svg\b[^>]*?) width="[^"]+"',
-        rf'\1 width="{percent}%"',
-        re.sub(r' height="[\d.]+pt"', "", body, count=1),
-        count=1,
-    )
+    body = re.sub(r' height="[\d.]+pt"', "", body, count=1)
+    return re.sub(r'(<svg\b[^>]*?) width="[^"]+"', rf'\1 width="{percent}%"', body, count=1)

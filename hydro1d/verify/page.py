@@ -7,45 +7,26 @@ import math
 import platform
 import re
 from collections.abc import Sequence
+from importlib import resources
 
 from hydro1d.verify import text
 from hydro1d.verify.rows import Row
 from hydro1d.verify.suite import Report
-
-STYLE = """
-:root { color-scheme: light; }
-body { font: 15px/1.45 system-ui, sans-serif; color: #1b1b1b; background: #fff; max-width: 74rem; margin: 2rem auto;
-  padding: 0 1rem; }
-h1 { font-size: 1.7rem; }
-h2 { font-size: 1.2rem; margin: 2.6rem 0 .4rem; border-top: 1px solid #ddd; padding-top: 1rem; }
-p.about { max-width: 58rem; color: #333; }
-table { border-collapse: collapse; font-size: 13px; width: 100%; font-variant-numeric: tabular-nums; }
-th { text-align: left; border-bottom: 2px solid #999; padding: .25rem .5rem; }
-td { border-bottom: 1px solid #e5e5e5; padding: .18rem .5rem; vertical-align: top; }
-td.n, th.n { text-align: right; white-space: nowrap; }
-.pass { color: #1d6b34; } .fail { color: #fff; background: #b3261e; font-weight: 600; } .shown { color: #666; }
-tr.failed td { background: #fdeceb; }
-details { margin: .6rem 0; } summary { cursor: pointer; color: #1769aa; }
-figure { margin: .8rem 0; } figure svg { max-width: 100%; height: auto; }
-.verdict { font-size: 1.1rem; padding: .5rem .8rem; border-radius: .3rem; display: inline-block; }
-.verdict.pass { background: #e6f4ea; } a { color: #1769aa; } .reason { color: #666; font-size: 12px; }
-@media print { details > * { display: block; } }
-"""
 
 
 def html_page(reports: Sequence[Report], rows: Sequence[Row], *, full: bool, seconds: float) -> str:
     """The whole page: verdict, a line a case, then each case with its figures and rows."""
     from hydro1d import __version__
 
+    style = resources.files(__package__).joinpath("page.css").read_text(encoding="utf-8")
     alone = [row for row in rows if all(row is not own for report in reports for own in report.rows)]
     parts = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8"><title>hydro1d: verification</title>',
         '<link rel="icon" href="data:,">',
-        f"<style>{STYLE}</style></head><body>",
+        f"<style>\n{style}</style></head><body>",
         "<h1>hydro1d: verification</h1>",
-        f"<p>The solver against exact solutions. hydro1d {html.escape(__version__)}, {'full' if full else 'default'} "
-        f"suite, "
+        f"<p>The solver against exact solutions. hydro1d {html.escape(__version__)}, {'full' if full else 'default'} suite, "
         f"Python {platform.python_version()}, {html.escape(platform.machine())}.</p>",
         _verdict(rows, len(reports), seconds),
         _rows_table(alone) if alone else "",
@@ -68,16 +49,13 @@ def _overview(reports: Sequence[Report]) -> str:
         judged = sum(math.isfinite(r.tolerance) for r in report.rows)
         failed = sum(not r.passed for r in report.rows)
         verdict = f'<td class="fail">{failed} FAILED</td>' if failed else '<td class="pass">pass</td>'
-        cells = (
-            ("", "", "")
-            if row is None
-            else (html.escape(row.quantity), text.short(row.error), text.limit(row.tolerance))
-        )
+        cells = ("", "", "")
+        if row is not None:
+            cells = (html.escape(row.quantity), text.short(row.error), text.limit(row.tolerance))
         lines.append(
-            f'<tr><td><a href="#{anchor(report)}">{html.escape(report.case.title)}</a></td><td '
-            f'class="n">{judged}</td>{verdict}'
-            f'<td>{cells[0]}</td><td class="n">{cells[1]}</td><td class="n">{cells[2]}</td><td '
-            f'class="n">{report.seconds:.1f} s</td></tr>'
+            f'<tr><td><a href="#{anchor(report)}">{html.escape(report.case.title)}</a></td>'
+            f'<td class="n">{judged}</td>{verdict}<td>{cells[0]}</td><td class="n">{cells[1]}</td>'
+            f'<td class="n">{cells[2]}</td><td class="n">{report.seconds:.1f} s</td></tr>'
         )
     head = _head("case", "rows>", "", "nearest to its tolerance", "error>", "tolerance>", "took>")
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
@@ -95,7 +73,7 @@ def hardest(rows: Sequence[Row]) -> Row | None:
 
 
 def anchor(report: Report) -> str:
-    """A name for links."""
+    """The id under which the page links to a case."""
     return re.sub(r"[^a-z0-9]+", "-", report.case.name.lower())
 
 
@@ -117,17 +95,11 @@ def _rows_table(rows: Sequence[Row]) -> str:
 
 
 def _row(row: Row) -> str:
-    verdict = text.verdict(row)
-    order = "" if row.order is None else f"{row.order:.2f}"
+    verdict, order = text.verdict(row), text.order(row)
     if row.least_order is not None:
         order += f" (≥ {row.least_order:g})"
-    numbers = (
-        text.number(row.exact),
-        text.number(row.measured),
-        text.short(row.error),
-        order,
-        text.limit(row.tolerance),
-    )
+    found = (text.number(value) for value in (row.exact, row.measured))
+    numbers = (*found, text.short(row.error), order, text.limit(row.tolerance))
     cells = "".join(f'<td class="n">{cell}</td>' for cell in numbers)
     failed = "" if row.passed else ' class="failed"'
     return (

@@ -10,6 +10,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from hydro1d.verify.convergence import extrapolate, order
+
 
 @dataclass(frozen=True)
 class Row:
@@ -103,6 +105,38 @@ class Table:
         """Add a quantity that is zero in the exact solution: a residual or a norm of the error."""
         self.compare(quantity, 0.0, value, tolerance, reason, order=order, least_order=least_order)
 
+    def converges(
+        self,
+        quantity: str,
+        zones: ArrayLike,
+        errors: Sequence[float] | np.ndarray,
+        tolerance: float,
+        reason: str,
+        *,
+        least_order: float | None = None,
+    ) -> None:
+        """Add the last of the errors at growing numbers of zones, with the order that they show."""
+        self.bound(quantity, errors[-1], tolerance, reason, order=order(zones, errors), least_order=least_order)
+
+    def rigid_limit(
+        self,
+        quantity: str,
+        exact: float,
+        stiffnesses: ArrayLike,
+        values: np.ndarray,
+        stiffest: tuple[str, float, str],
+        limit: tuple[float, str],
+        *,
+        scale: float | None = None,
+    ) -> None:
+        """Add two rows of a quantity that reaches its exact value as stiffness^(−½): at the stiffest, and extrapolated.
+
+        stiffest: what the row calls it, tolerance and reason; limit: tolerance and reason of the extrapolated value.
+        """
+        name, *raw = stiffest
+        self.compare(f"{quantity}, {name}", exact, values[-1], *raw, scale=scale)  # type: ignore[arg-type]
+        self.compare(f"{quantity}, limit", exact, extrapolate(stiffnesses, values, 0.5), *limit, scale=scale)
+
     def report(self, quantity: str, exact: float, measured: float, reason: str, *, scale: float | None = None) -> None:
         """Add a row that is shown and not judged, unless it is not a number."""
         self.compare(quantity, exact, measured, math.inf, reason, scale=scale)
@@ -111,6 +145,19 @@ class Table:
         """Add a set of axes to the case's figure."""
         self.panels.append(Panel(title, x_label, y_label, tuple(lines), log))
 
+    def beside(
+        self,
+        title: str,
+        x_label: str,
+        y_label: str,
+        exact: tuple[ArrayLike, ArrayLike],
+        run: tuple[ArrayLike, ArrayLike],
+        label: str,
+        theory: str = "exact",
+    ) -> None:
+        """Add a set of axes with one run, x and y, over the exact solution."""
+        self.panel(title, x_label, y_label, [line(*exact, theory, "exact"), line(*run, label)])
+
     def convergence(self, zones: ArrayLike, errors: Mapping[str, ArrayLike], y_label: str) -> None:
         """Add the error against the number of zones, on logarithmic axes."""
         lines = [line(zones, values, label) for label, values in errors.items()]
@@ -118,10 +165,10 @@ class Table:
 
 
 def line(x: ArrayLike, y: ArrayLike, label: str, style: Literal["exact", "run", "points"] = "run") -> Line:
-    """A curve from anything array-like."""
+    """A `Line` from two array-likes."""
     return Line(np.asarray(x, dtype=float), np.asarray(y, dtype=float), label, style)
 
 
 def failure(case: str, quantity: str, reason: str) -> Row:
-    """A row for what did not run."""
+    """A row that fails, for a case that did not run to its end."""
     return Row(case, quantity, math.nan, math.nan, math.nan, None, 0.0, False, None, reason)

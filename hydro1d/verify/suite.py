@@ -37,7 +37,7 @@ ROWS = 1265
 
 @dataclass(frozen=True)
 class Report:
-    """What one case gave."""
+    """Rows and panels of one case, and how long it took (s)."""
 
     case: Case
     rows: tuple[Row, ...]
@@ -52,7 +52,7 @@ class Report:
 
 def all_cases() -> list[Case]:
     """Every registered case."""
-    return [case for name in MODULES for case in importlib.import_module(f"hydro1d.verify.cases.{name}").cases()]
+    return [case for name in MODULES for case in importlib.import_module(f"hydro1d.verify.cases.{name}").CASES]
 
 
 def chosen(patterns: Sequence[str]) -> list[Case]:

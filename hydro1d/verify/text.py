@@ -1,4 +1,4 @@
-"""The table as text."""
+"""The rows of the suite as a table in plain text."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def row_text(row: Row) -> str:
             number(row.exact),
             number(row.measured),
             short(row.error),
-            _order(row),
+            order(row),
             limit(row.tolerance),
             verdict(row),
         )
@@ -40,33 +40,34 @@ def row_text(row: Row) -> str:
 
 
 def summary(rows: Sequence[Row], cases: int, seconds: float) -> str:
-    """The last line."""
+    """The last line of the output: numbers of cases, rows and failures, and the time taken (s)."""
     failed = sum(not row.passed for row in rows)
     verdict = "all passed" if not failed else f"{failed} FAILED"
     return f"{cases} cases, {len(rows)} rows, {verdict}, {seconds:.1f} s"
 
 
 def verdict(row: Row) -> str:
-    """What came of it."""
+    """The last column: pass, FAIL, or shown for a row without a tolerance."""
     return "FAIL" if not row.passed else "pass" if math.isfinite(row.tolerance) else "shown"
 
 
 def number(value: float) -> str:
-    """Seven digits."""
+    """A value with seven digits, a dash for what is not finite."""
     return f"{value:.7g}" if math.isfinite(value) else "–"
 
 
 def short(value: float) -> str:
-    """Two digits."""
+    """An error with two digits, a dash for what is not finite."""
     return f"{value:.1e}" if math.isfinite(value) else "–"
 
 
 def limit(value: float) -> str:
-    """A tolerance."""
+    """A tolerance, a dash where there is none."""
     return f"{value:.2g}" if math.isfinite(value) else "–"
 
 
-def _order(row: Row) -> str:
+def order(row: Row) -> str:
+    """The observed order, two digits; nothing where none was asked for."""
     return "" if row.order is None else f"{row.order:.2f}"
 
 

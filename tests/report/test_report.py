@@ -11,12 +11,13 @@ import pytest
 from synthetic import made_run
 
 import hydro1d
+from hydro1d.analysis.theory import CURVES, curve_of
 from hydro1d.cli import main
 from hydro1d.errors import FileProblem
 from hydro1d.report import find_theory, report, write_report
 from hydro1d.report._data import shown_rows, telling_row
 from hydro1d.report._numbers import energy_numbers, headline, key_numbers
-from hydro1d.report._theory import curve_of, theory_or_reason
+from hydro1d.report._theory import theory_or_reason
 
 CHROMIUM = next(
     (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
@@ -203,7 +204,10 @@ def test_every_law_of_the_theory_has_its_curve():
     }  # fmt: skip
     for law, own in more.items():
         assert curve_of({"law": law, **foam, **own}).stress(0.01) > 0.0
+    assert more.keys() == CURVES.keys()
     assert curve_of({"law": "table"}) is None
+    with pytest.raises(KeyError, match="modulus"):
+        curve_of({"law": "elastic", "density": 51.6, "modulus": True})
 
 
 def test_partial_runs_have_a_page_and_say_so():

@@ -12,8 +12,8 @@ import pytest
 
 from hydro1d.cli import main
 from hydro1d.verify import Case, Effort, Row, Table, all_cases, chosen, run_case, run_suite
+from hydro1d.verify.convergence import crossing, extrapolate, mean_over, order
 from hydro1d.verify.markdown import markdown_page
-from hydro1d.verify.measure import crossing, extrapolate, mean_over, order
 from hydro1d.verify.page import html_page
 from hydro1d.verify.rows import line
 from hydro1d.verify.suite import CASES, ROWS, Report, registered_whole

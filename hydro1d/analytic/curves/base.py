@@ -8,6 +8,7 @@ import math
 from abc import ABC, abstractmethod
 from itertools import pairwise
 
+import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import quad
 from scipy.optimize import brentq
@@ -55,12 +56,18 @@ class Curve(ABC):
         """Increasing strains between which the curve is concave-up; the first is the yield strain."""
 
     @abstractmethod
-    def stress(self, strain: ArrayLike) -> Array:
-        """Stress in Pa, shape of `strain`."""
+    def _stress(self, strain: Array) -> Array: ...
 
     @abstractmethod
+    def _tangent(self, strain: Array) -> Array: ...
+
+    def stress(self, strain: ArrayLike) -> Array:
+        """Stress in Pa, shape of `strain`."""
+        return self._stress(np.asarray(strain, dtype=float))
+
     def tangent(self, strain: ArrayLike) -> Array:
         """Slope of the curve in Pa, shape of `strain`; at a corner, the slope beyond it."""
+        return self._tangent(np.asarray(strain, dtype=float))
 
     def strain_at(self, stress: float) -> float:
         """The strain that carries `stress` (Pa).
@@ -77,11 +84,7 @@ class Curve(ABC):
     def area(self, strain: float) -> float:
         """Area under the curve from zero to `strain`, J/m^3: the quasi-static energy absorption."""
         marks = [0.0, *[corner for corner in self.corners if corner < strain], strain]
-        pieces = [quad(self._stress_at, *ends, epsabs=0.0, epsrel=1e-12)[0] for ends in pairwise(marks)]
-        return float(sum(pieces))
-
-    def _stress_at(self, strain: float) -> float:
-        return float(self.stress(strain))
+        return float(sum(quad(self.stress, *ends, epsabs=0.0, epsrel=1e-12)[0] for ends in pairwise(marks)))
 
 
 def below_one(strain: float, stress: float) -> float:

@@ -2,9 +2,10 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hydro1d.analytic._checks import Array, positive, require
@@ -30,37 +31,29 @@ class RPH(Curve):
         peak = self._strain_farthest_below()
         reached = peak > 0.0 and self._over_elastic(peak) < 0.0
         require(reached, "modulus", self.modulus, "high enough for the elastic line to reach the hardening curve")
-        crossings = (
-            float(brentq(self._over_elastic, 0.0, peak, xtol=1e-17)),
-            float(brentq(self._over_elastic, peak, self.strain_limit, xtol=1e-16)),
-        )
-        object.__setattr__(self, "_corners", crossings)
 
-    @property
+    @cached_property
     def corners(self) -> tuple[float, ...]:
-        """Strains between which the curve is concave-up."""
-        crossings: tuple[float, ...] = self.__dict__["_corners"]
-        return crossings
+        """The two strains at which elastic line and hardening curve cross."""
+        peak = self._strain_farthest_below()
+        first = float(brentq(self._over_elastic, 0.0, peak, xtol=1e-17))
+        return first, float(brentq(self._over_elastic, peak, self.strain_limit, xtol=1e-16))
 
     def _over_elastic(self, strain: float) -> float:
-        return float(self._hardening_stress(strain)) - self.modulus * strain
+        return self._hardening_stress(strain) - self.modulus * strain
 
     def _strain_farthest_below(self) -> float:
         if self.hardening >= self.modulus:
             return 0.0
         return float(brentq(lambda e: self.modulus * (1.0 - e) ** 3 - self.hardening * (1.0 + e), 0.0, 1.0))
 
-    def _hardening_stress(self, strain: ArrayLike) -> Array:
-        strain = np.asarray(strain, dtype=float)
+    def _hardening_stress(self, strain: Any) -> Any:
         return self.plateau_stress + self.hardening * strain / np.square(1.0 - strain)
 
-    def stress(self, strain: ArrayLike) -> Array:
-        """Stress, Pa, shape of `strain`."""
-        return np.minimum(self.modulus * np.asarray(strain, dtype=float), self._hardening_stress(strain))
+    def _stress(self, strain: Array) -> Array:
+        return np.minimum(self.modulus * strain, self._hardening_stress(strain))
 
-    def tangent(self, strain: ArrayLike) -> Array:
-        """Slope of the curve, Pa, shape of `strain`."""
-        strain = np.asarray(strain, dtype=float)
+    def _tangent(self, strain: Array) -> Array:
         plastic = (strain >= self.corners[0]) & (strain < self.corners[1])
         return np.where(plastic, self.hardening * (1.0 + strain) / (1.0 - strain) ** 3, self.modulus)
 

@@ -4,7 +4,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from hydro1d.analytic._checks import Array, between, positive
 from hydro1d.analytic.curves.base import Curve, below_one
@@ -25,13 +24,11 @@ class Elastic(Curve):
         """Strains between which the curve is concave-up."""
         return ()
 
-    def stress(self, strain: ArrayLike) -> Array:
-        """Stress, Pa, shape of `strain`."""
-        return self.modulus * np.asarray(strain, dtype=float)
+    def _stress(self, strain: Array) -> Array:
+        return self.modulus * strain
 
-    def tangent(self, strain: ArrayLike) -> Array:
-        """Slope of the curve, Pa, shape of `strain`."""
-        return np.full_like(np.asarray(strain, dtype=float), self.modulus)
+    def _tangent(self, strain: Array) -> Array:
+        return np.full_like(strain, self.modulus)
 
 
 @dataclass(frozen=True)
@@ -60,15 +57,12 @@ class EPH(Curve):
         """Lagrangian speed of the plastic wave, m/s."""
         return math.sqrt(self.hardening_modulus / self.density)
 
-    def stress(self, strain: ArrayLike) -> Array:
-        """Stress, Pa, shape of `strain`."""
-        strain = np.asarray(strain, dtype=float)
+    def _stress(self, strain: Array) -> Array:
         plastic = np.maximum(strain - self.yield_strain, 0.0)
         return np.minimum(self.modulus * strain, self.yield_limit) + self.hardening_modulus * plastic
 
-    def tangent(self, strain: ArrayLike) -> Array:
-        """Slope of the curve, Pa, shape of `strain`."""
-        return np.where(np.asarray(strain) < self.yield_strain, self.modulus, self.hardening_modulus)
+    def _tangent(self, strain: Array) -> Array:
+        return np.where(strain < self.yield_strain, self.modulus, self.hardening_modulus)
 
     def strain_at(self, stress: float) -> float:
         """The strain that carries `stress` (Pa); ValueError where there is none."""

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from hydro1d.analytic._checks import Array, between, positive, require
 from hydro1d.analytic.curves.base import Curve, below_one
@@ -45,15 +44,12 @@ class Table(Curve):
         lines = np.diff(self.stresses) / np.diff(self.strains)
         return np.concatenate([[self.modulus], lines, lines[-1:]])
 
-    def stress(self, strain: ArrayLike) -> Array:
-        """Stress, Pa, shape of `strain`."""
-        strain = np.asarray(strain, dtype=float)
+    def _stress(self, strain: Array) -> Array:
         inside = np.interp(strain, (0.0, *self.strains), (0.0, *self.stresses))
         return inside + self._slopes()[-1] * np.maximum(strain - self.strains[-1], 0.0)
 
-    def tangent(self, strain: ArrayLike) -> Array:
-        """Slope of the curve, Pa, shape of `strain`."""
-        return self._slopes()[np.searchsorted(self.strains, np.asarray(strain), side="right")]
+    def _tangent(self, strain: Array) -> Array:
+        return self._slopes()[np.searchsorted(self.strains, strain, side="right")]
 
     def strain_at(self, stress: float) -> float:
         """The strain that carries `stress` (Pa); ValueError where there is none."""
@@ -97,15 +93,11 @@ class UserCurve(Curve):
         """Largest strain at which the curve is defined."""
         return self.largest_strain
 
-    def stress(self, strain: ArrayLike) -> Array:
-        """Stress, Pa, shape of `strain`."""
-        strain = np.asarray(strain, dtype=float)
+    def _stress(self, strain: Array) -> Array:
         beyond = self.plastic(np.maximum(strain, self.yield_strain))
         return np.where(strain < self.yield_strain, self.modulus * strain, beyond)
 
-    def tangent(self, strain: ArrayLike) -> Array:
-        """Slope of the curve, Pa, shape of `strain`."""
-        strain = np.asarray(strain, dtype=float)
+    def _tangent(self, strain: Array) -> Array:
         step = 1e-6 * (1.0 - strain)
         slope = (self.plastic(strain + step) - self.plastic(strain)) / step
         return np.where(strain < self.yield_strain, self.modulus, slope)

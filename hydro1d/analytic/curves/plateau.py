@@ -3,7 +3,6 @@
 from abc import abstractmethod
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from hydro1d.analytic._checks import Array, between, positive
 from hydro1d.analytic.curves.base import Curve
@@ -32,16 +31,12 @@ class PlateauCurve(Curve):
     def _slope(self, strain: Array) -> Array:
         """Derivative of `_rise`, Pa."""
 
-    def stress(self, strain: ArrayLike) -> Array:
-        """Stress, Pa, shape of `strain`."""
-        strain = np.asarray(strain, dtype=float)
+    def _stress(self, strain: Array) -> Array:
         crushed = np.maximum(strain, self.densification_strain)
         rise = np.where(strain > self.densification_strain, self._rise(crushed), 0.0)
         return np.minimum(self.modulus * strain, self.plateau_stress) + rise
 
-    def tangent(self, strain: ArrayLike) -> Array:
-        """Slope of the curve, Pa, shape of `strain`."""
-        strain = np.asarray(strain, dtype=float)
+    def _tangent(self, strain: Array) -> Array:
         crushed = np.maximum(strain, self.densification_strain)
         beyond = np.where(strain < self.densification_strain, 0.0, self._slope(crushed))
         return np.where(strain < self.plateau_stress / self.modulus, self.modulus, beyond)

@@ -8,9 +8,10 @@ from typing import Any, NamedTuple
 
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.boundary import Ending, at_rest, with_the_pulse
+from hydro1d.studies.harrigan2010.colors import BLUE, ORANGE
 from hydro1d.studies.harrigan2010.masses import HARD
 from hydro1d.studies.harrigan2010.rooms import Band, Chain, critical
-from hydro1d.studies.harrigan2010.workshop import BLUE, ORANGE, Workshop, new_figure
+from hydro1d.studies.harrigan2010.workshop import Workshop, new_figure
 from hydro1d.sweep import Column, Table
 
 PRESSURE = 2.4e6

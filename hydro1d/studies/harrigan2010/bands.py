@@ -14,9 +14,10 @@ import numpy as np
 
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.boundary import CRITERIA, evaluate_at
+from hydro1d.studies.harrigan2010.colors import BLUE, GREY, RED
 from hydro1d.studies.harrigan2010.rooms import Band, Chain, answers
 from hydro1d.studies.harrigan2010.springs import chain
-from hydro1d.studies.harrigan2010.workshop import BLUE, GREY, RED, Workshop, columns, new_figure, plain
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure, plain
 
 CHAINS = {"half mass": Chain(end_mass=0.5), "equal masses": Chain()}
 LOW, HIGH = 0.3, 0.55  # durations over Eq. 30: no there and yes here, at every pressure

@@ -11,25 +11,11 @@ import numpy as np
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.bands import FINE_CHAIN, Outcomes, bands, draw, outcomes
 from hydro1d.studies.harrigan2010.boundary import CRITERIA, Curve, Point, boundary_table, trace_curves
+from hydro1d.studies.harrigan2010.colors import BLUE, BROWN, GOLD, GREEN, GREY, LILAC, ORANGE, PINK, PURPLE, RED
 from hydro1d.studies.harrigan2010.masses import HARD
-from hydro1d.studies.harrigan2010.rooms import Chain, critical
+from hydro1d.studies.harrigan2010.rooms import Chain, ask
 from hydro1d.studies.harrigan2010.springs import PLASTIC, chain
-from hydro1d.studies.harrigan2010.workshop import (
-    BLUE,
-    BROWN,
-    GOLD,
-    GREEN,
-    GREY,
-    LILAC,
-    ORANGE,
-    PINK,
-    PURPLE,
-    RED,
-    Workshop,
-    deck_data,
-    new_figure,
-    plain,
-)
+from hydro1d.studies.harrigan2010.workshop import Workshop, deck_data, new_figure, plain
 from hydro1d.sweep import Column, Table
 
 LINEAR_TOP = 5.4e6  # Pa: Eq. 39 ends at 5.5 MPa
@@ -77,10 +63,9 @@ def _continuum(work: Workshop) -> list[_Reach]:
         return _Reach(foam_curve(name, "pulse_rppl.toml", size.zones, *texts, **narrow))
 
     def hardening(name: str, zones: int, *texts: str) -> _Reach:
-        deck, highest = (
-            ("pulse_epph.toml", LINEAR_TOP) if name.startswith("Eq. 39") else ("pulse_tangent.toml", math.inf)
-        )
-        return _Reach(foam_curve(name, deck, zones, *texts), highest=highest)
+        if name.startswith("Eq. 39"):
+            return _Reach(foam_curve(name, "pulse_epph.toml", zones, *texts), highest=LINEAR_TOP)
+        return _Reach(foam_curve(name, "pulse_tangent.toml", zones, *texts))
 
     def stiffer(name: str, h: float) -> _Reach:
         return hardening(f"{name} H={h:g}E", size.zones, f"material.foam.unloading_modulus={h * foam.MODULUS}")
@@ -143,17 +128,15 @@ def _band_columns(pressures: Sequence[float], shares: np.ndarray, found: Outcome
     unit, made = np.array([foam.eq30(p) for p in pressures]), []
     for name, said in found.items():
         for edge, values in bands(shares, said)._asdict().items():
-            made.append(
-                Column(f"{name} {edge}", "s", f"{edge} change of the outcome, {plain(name)}", (unit * values).tolist())
-            )
+            text = f"{edge} change of the outcome, {plain(name)}"
+            made.append(Column(f"{name} {edge}", "s", text, (unit * values).tolist()))
     return made
 
 
 def _locking_columns(work: Workshop, pressures: Sequence[float]) -> list[Column]:
     """Plastic springs that become rigid links near their pole, s."""
     made = []
-    for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True):
-        tasks = [work.pool.submit(critical, LOCKING, question, p, (0.7, 1.3)) for p in pressures]
+    for criterion, tasks in ask(work.pool, LOCKING, pressures, (0.7, 1.3)).items():
         values = [foam.eq30(p) * task.result().last for p, task in zip(pressures, tasks, strict=True)]
         text = f"critical duration, plastic springs that lock, {plain(criterion)}"
         made.append(Column(f"plastic locking {criterion}", "s", text, values))
@@ -224,13 +207,12 @@ def _draw_chains(ax: Any, table: Table, scale: np.ndarray) -> None:
 
 
 def _draw_rooms(ax: Any, table: Table, scale: np.ndarray) -> None:
-    """The chains of `rooms`: a band, and lines."""
+    """Draw the chains of `rooms`: a band for half an end mass, lines for the others."""
     pressure = table["pressure"] / 1e6
     first = np.minimum(*(table[f"half mass {criterion} first"] for criterion in CRITERIA)) / scale
     last = np.maximum(*(table[f"half mass {criterion} last"] for criterion in CRITERIA)) / scale
-    ax.fill_betweenx(
-        pressure, first, last, color=BLUE, alpha=0.2, lw=0, label="ten masses, reversible: first to last change"
-    )
+    label = "ten masses, reversible: first to last change"
+    ax.fill_betweenx(pressure, first, last, color=BLUE, alpha=0.2, lw=0, label=label)
     for criterion, style in zip(CRITERIA, ("-", "--"), strict=True):
         label = f"ten equal masses, reversible: {plain(criterion)}"
         ax.plot(table[f"equal masses {criterion} last"] / scale, pressure, style, color="navy", lw=1.0, label=label)
@@ -245,9 +227,8 @@ def _eq30_numbers(work: Workshop, table: Table) -> None:
         ("R-P-P-L limit", "R-P-P-L extrapolated to rigid", "as stiffness^(-1/2)"),
     ):
         worst = float(np.max(np.abs(table[name] / table["Eq. 30"] - 1.0)))
-        work.number(
-            "6", f"largest deviation from Eq. 30, {quantity}, P = 1.5-10 MPa", "%", solver=100.0 * worst, note=note
-        )
+        label = f"largest deviation from Eq. 30, {quantity}, P = 1.5-10 MPa"
+        work.number("6", label, "%", solver=100.0 * worst, note=note)
 
 
 def _numbers_6(work: Workshop, table: Table) -> None:
@@ -264,11 +245,9 @@ def _numbers_6(work: Workshop, table: Table) -> None:
         "plastic locking": "ten masses, plastic, rigid links near the pole",
     }
     for k in dict.fromkeys(int(np.argmin(np.abs(pressure - target))) for target in TARGETS):
-        note = f"at P = {pressure[k] / 1e6:.3g} MPa"
-        limit = table["R-P-P-L limit"][k] * 1e3
-        work.number(
-            "6", "critical duration, R-P-P-L", "ms", equations=exact[k] * 1e3, solver=limit, note=f"{note}; rigid limit"
-        )
+        note, limit = f"at P = {pressure[k] / 1e6:.3g} MPa", table["R-P-P-L limit"][k] * 1e3
+        both = {"equations": exact[k] * 1e3, "solver": limit}
+        work.number("6", "critical duration, R-P-P-L", "ms", **both, note=f"{note}; rigid limit")
         for name, label in names.items():
             for criterion in CRITERIA:
                 share = table[f"{name} {criterion}"][k] / exact[k]

@@ -9,13 +9,14 @@ import numpy as np
 
 from hydro1d import analytic
 from hydro1d.studies.harrigan2010 import foam
-from hydro1d.studies.harrigan2010.workshop import BLUE, GREEN, RED, Workshop, columns, new_figure
+from hydro1d.studies.harrigan2010.colors import BLUE, GREEN, RED
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure
 
 MEGA = 1e6
 
 
 def figure_1(work: Workshop) -> None:
-    """Quasi-static curves."""
+    """Fig. 1: the quasi-static curves of R-P-P-L and E-P-P-H."""
     strain = np.concatenate([[0.0], np.linspace(foam.PLATEAU / foam.MODULUS, foam.LOCKING, 30)])
     over = np.linspace(foam.LOCKING, 1.0, 200)[:-1]
     ends = np.minimum(over, foam.LINEAR.strain_limit)

@@ -16,7 +16,8 @@ from hydro1d import analytic
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.boundaries import LINEAR_TOP, foam_curve
 from hydro1d.studies.harrigan2010.boundary import trace_curves
-from hydro1d.studies.harrigan2010.workshop import GREEN, RED, Workshop, columns, new_figure
+from hydro1d.studies.harrigan2010.colors import GREEN, RED
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure
 from hydro1d.sweep import Table
 
 CURVES = (("Eq. 38", foam.TANGENT, "pulse_tangent.toml", GREEN), ("Eq. 39", foam.LINEAR, "pulse_epph.toml", RED))

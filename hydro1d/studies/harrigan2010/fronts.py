@@ -9,7 +9,8 @@ import numpy as np
 from hydro1d import analytic
 from hydro1d.store import Run
 from hydro1d.studies.harrigan2010 import foam
-from hydro1d.studies.harrigan2010.workshop import BLUE, ORANGE, RED, Workshop, columns, new_figure
+from hydro1d.studies.harrigan2010.colors import BLUE, ORANGE, RED
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure
 
 LOADS = (2.4e6, 3.6e6)  # Pa
 PUSHED = 1.5e-3  # s: the pulse still acts

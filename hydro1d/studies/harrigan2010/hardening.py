@@ -10,9 +10,10 @@ import numpy as np
 
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.boundaries import foam_curve
-from hydro1d.studies.harrigan2010.boundary import CRITERIA, trace_curves
-from hydro1d.studies.harrigan2010.rooms import Chain, critical
-from hydro1d.studies.harrigan2010.workshop import BLUE, GREEN, RED, Workshop, columns, new_figure, plain
+from hydro1d.studies.harrigan2010.boundary import CRITERIA, Curve, trace_curves
+from hydro1d.studies.harrigan2010.colors import BLUE, GREEN, RED
+from hydro1d.studies.harrigan2010.rooms import Chain, ask
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure, plain
 from hydro1d.sweep import Table
 
 FITTED = np.linspace(10.0, 250.0, 25)  # [v], m/s
@@ -49,17 +50,11 @@ Found = dict[tuple[str, tuple[float, float], str], np.ndarray]  # model, (β, γ
 
 
 def _continuum(work: Workshop, pressures: Sequence[float]) -> Found:
-    curves = {
-        pair: foam_curve(
-            f"{pair}",
-            "pulse_tangent.toml",
-            work.size.zones,
-            f"material.foam.beta={pair[0]}",
-            f"material.foam.gamma={pair[1]}",
-            bracket=(0.6, 2.4),
-        )
-        for pair in (USED, *CREDIBLE, *FAR)
-    }
+    def own(beta: float, gamma: float) -> Curve:
+        texts = (f"material.foam.beta={beta}", f"material.foam.gamma={gamma}")
+        return foam_curve(f"{(beta, gamma)}", "pulse_tangent.toml", work.size.zones, *texts, bracket=(0.6, 2.4))
+
+    curves = {pair: own(*pair) for pair in (USED, *CREDIBLE, *FAR)}
     traced = trace_curves(list(curves.values()), pressures, foam.eq30, max(work.size.tolerance, 2e-3), work.pool)
     unit = np.array([foam.eq30(p) for p in pressures])
     return {
@@ -70,16 +65,14 @@ def _continuum(work: Workshop, pressures: Sequence[float]) -> Found:
 
 
 def _chains(work: Workshop, pressures: Sequence[float]) -> Found:
-    tasks = {
-        (pair, criterion): [
-            work.pool.submit(critical, Chain(beta=pair[0], gamma=pair[1]), question, p, (0.3, 0.6)) for p in pressures
-        ]
+    asked = {
+        pair: ask(work.pool, Chain(beta=pair[0], gamma=pair[1]), pressures, (0.3, 0.6))
         for pair in (USED, *CREDIBLE, *FAR)
-        for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True)
     }
     return {
-        ("chain", pair, criterion): np.array([task.result().last for task in many])
-        for (pair, criterion), many in tasks.items()
+        ("chain", pair, criterion): np.array([task.result().last for task in tasks])
+        for pair, by_criterion in asked.items()
+        for criterion, tasks in by_criterion.items()
     }
 
 

@@ -9,29 +9,24 @@ import numpy as np
 from hydro1d.store import Run
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.chain import Trajectories, equal_masses, potential
+from hydro1d.studies.harrigan2010.colors import GREY
 from hydro1d.studies.harrigan2010.measure import crushed_at, support_share
-from hydro1d.studies.harrigan2010.workshop import GREY, Workshop, columns, new_figure
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure
 
 HARD = (5.0, 0.8)  # β, γ of a foam that hardens earlier and keeps springs away from their pole
 
 
 def figure_12(work: Workshop) -> None:
-    """Trajectories against τ."""
+    """Fig. 12: positions of ten masses, and of as many points of the continuum, against τ."""
     chain = work.run("mass_spring_li_meng.toml", "fig12_ten_masses")
-    hard = work.run("mass_spring_li_meng.toml", "fig12_ten_masses_hard", _hardening(*HARD))
-    fine = work.run(
-        "pulse_tangent.toml",
-        "fig12_continuum",
-        [f"layer[0].zones={work.size.fine_zones}", "left.duration=1.53148e-3", "time.end=7.6574e-3"],
-    )
+    hardening = [f"material.foam.beta={HARD[0]}", f"material.foam.gamma={HARD[1]}"]
+    hard = work.run("mass_spring_li_meng.toml", "fig12_ten_masses_hard", hardening)
+    texts = [f"layer[0].zones={work.size.fine_zones}", "left.duration=1.53148e-3", "time.end=7.6574e-3"]
+    fine = work.run("pulse_tangent.toml", "fig12_continuum", texts)
     own = equal_masses(10, foam.PRESSURE, 1.0 / foam.RATE, 5.0 / foam.RATE, foam.BETA, foam.GAMMA)
     _draw(work, chain, own, fine)
     _energy_numbers(work, chain, own)
     _outcome_numbers(work, chain, hard, own, fine)
-
-
-def _hardening(beta: float, gamma: float) -> list[str]:
-    return [f"material.foam.beta={beta}", f"material.foam.gamma={gamma}"]
 
 
 def _draw(work: Workshop, chain: Run, own: Trajectories, fine: Run) -> None:
@@ -65,42 +60,22 @@ def _trajectories(ax: Any, time: np.ndarray, position: np.ndarray, title: str) -
 
 
 def _energy_numbers(work: Workshop, chain: Run, own: Trajectories) -> None:
-    work.number(
-        "12",
-        "energy error of ten masses",
-        "1",
-        equations=0.0,
-        solver=float(np.max(np.abs(chain.history["energy_error"]))),
-        note="kinetic + internal - work, over the work",
-    )
-    work.number(
-        "12",
-        "energy error against the potential of the springs",
-        "1",
-        equations=0.0,
-        solver=potential_error(chain, foam.BETA, foam.GAMMA),
-        note=f"at the end; at most {own.energy_error:.1e} for equal masses, independent integrator",
-    )
+    error, note = np.max(np.abs(chain.history["energy_error"])), "kinetic + internal - work, over the work"
+    work.number("12", "energy error of ten masses", "1", equations=0.0, solver=error, note=note)
+    error = potential_error(chain, foam.BETA, foam.GAMMA)
+    note = f"at the end; at most {own.energy_error:.1e} for equal masses, independent integrator"
+    label = "energy error against the potential of the springs"
+    work.number("12", label, "1", equations=0.0, solver=error, note=note)
 
 
 def _outcome_numbers(work: Workshop, chain: Run, hard: Run, own: Trajectories, fine: Run) -> None:
-    beta, gamma = HARD
-    work.number(
-        "12",
-        "peak support stress over P, ten masses",
-        "1",
-        solver=support_share(chain),
-        note=f"{own.support / foam.PRESSURE:.3g} with ten equal masses; {support_share(hard):.3g} with "
-        f"β = {beta}, γ = {gamma}: the height is that of the pole",
-    )
+    harder = f"with β = {HARD[0]}, γ = {HARD[1]}"
+    note = f"{own.support / foam.PRESSURE:.3g} with ten equal masses; {support_share(hard):.3g} {harder}"
+    note += ": the height is that of the pole"
+    work.number("12", "peak support stress over P, ten masses", "1", solver=support_share(chain), note=note)
     work.number("12", "peak support stress over P, continuum", "1", solver=support_share(fine))
-    work.number(
-        "12",
-        "every spring past εD, ten masses",
-        "τ",
-        solver=crushed_at(chain) * foam.RATE,
-        note=f"{crushed_at(hard) * foam.RATE:.4g} with β = {beta}, γ = {gamma}",
-    )
+    note = f"{crushed_at(hard) * foam.RATE:.4g} {harder}"
+    work.number("12", "every spring past εD, ten masses", "τ", solver=crushed_at(chain) * foam.RATE, note=note)
     work.number("12", "fully crushed, continuum", "τ", solver=crushed_at(fine) * foam.RATE)
 
 

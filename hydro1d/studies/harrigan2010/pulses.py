@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from hydro1d import analytic
 from hydro1d.store import Run
 from hydro1d.studies.harrigan2010 import foam
+from hydro1d.studies.harrigan2010.colors import BLUE, GREY, RED
 from hydro1d.studies.harrigan2010.measure import (
     at_time,
     crushed_at,
@@ -22,14 +23,14 @@ from hydro1d.studies.harrigan2010.measure import (
     rest_time,
     support_share,
 )
-from hydro1d.studies.harrigan2010.workshop import BLUE, GREY, RED, Workshop, columns, new_figure
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure
 
 RIGIDITY = 20  # unloading modulus over E that stands for the rigid unloading of the theory
 STEADY = (0.5e-3, 1.5e-3)  # s: within the pulse, when the front has formed
 
 
 def figure_11a(work: Workshop) -> None:
-    """R-P-P-L."""
+    """Fig. 11a: R-P-P-L under a pulse."""
     zones, stiff = (work.size.fine_zones // 2, 10000.0) if work.size.studies else (200, 4000.0)
     runs = [
         work.run("pulse_rppl.toml", f"fig11a_rppl_{k:g}", [f"layer[0].zones={zones}", f"material.foam.stiffness={k}"])
@@ -50,14 +51,8 @@ def _draw_11a(work: Workshop, theory: analytic.RPPLPulse, run: Run, stiffness: f
     _dots(ax, run.time, end, RED, ".", "proximal end, solver")
     ax.axvline(foam.DURATION * 1e3, color=GREY, lw=0.8, ls=":", label="end of the pulse")
     _finish(ax)
-    data = columns(
-        t__s=t,
-        front__m=path.front,
-        proximal_end__m=path.displacement,
-        solver_t__s=run.time,
-        solver_front__m=front,
-        solver_proximal_end__m=end,
-    )
+    theoretical = {"t__s": t, "front__m": path.front, "proximal_end__m": path.displacement}
+    data = columns(**theoretical, solver_t__s=run.time, solver_front__m=front, solver_proximal_end__m=end)
     caption = (
         f"R-P-P-L, P = 3.6 MPa, T = 1.53 ms. The solver's stiffness is {stiffness:g} σP: its elastic precursor carries "
         "all along a little, and its far end is crushed a little from the wall. The numbers are extrapolated to rigid."
@@ -95,13 +90,12 @@ def _numbers_11a(work: Workshop, theory: analytic.RPPLPulse, runs: list[Run], st
     row("share never crushed", "1", 1.0 - theory.critical_length, left, paper=0.10, note="; paper: 'nearly 10 %'")
     rest = [rest_time(run) * 1e3 for run in runs]
     row("time of rest, T P/σP", "ms", theory.stop_time * 1e3, rest, paper=6.9)
-    work.number(
-        "11a", "TCR at P = 3.6 MPa (Eq. 30)", "ms", equations=foam.eq30(foam.PRESSURE) * 1e3, note="solver: Fig. 6"
-    )
+    critical = foam.eq30(foam.PRESSURE) * 1e3
+    work.number("11a", "TCR at P = 3.6 MPa (Eq. 30)", "ms", equations=critical, note="solver: Fig. 6")
 
 
 def figure_11b(work: Workshop) -> None:
-    """E-P-P-H."""
+    """Fig. 11b: E-P-P-H under a pulse."""
     run = work.run("pulse_epph.toml", "fig11b_epph", [f"layer[0].zones={work.size.fine_zones}"])
     stiff = [f"layer[0].zones={work.size.fine_zones}", f"material.foam.unloading_modulus={RIGIDITY * foam.MODULUS}"]
     rigid = work.run("pulse_epph.toml", "fig11b_epph_rigid_unloading", stiff)
@@ -119,13 +113,8 @@ def _draw_11b(work: Workshop, theory: analytic.CompactionPulse, run: Run, rigid:
     _line(ax, t, path.displacement, RED, "proximal end")
     _line(ax, t, distal, "black", "distal front")
     ax.plot([0, theory.wave_arrival * 1e3], [1, 0], color=GREY, lw=1.0, label="elastic precursor")
-    data: dict[str, Any] = {
-        "t__s": t,
-        "proximal_front__m": path.laboratory_front,
-        "proximal_end__m": path.displacement,
-        "distal_front__m": distal,
-        "solver_t__s": run.time,
-    }
+    data: dict[str, Any] = {"t__s": t, "proximal_front__m": path.laboratory_front}
+    data |= {"proximal_end__m": path.displacement, "distal_front__m": distal, "solver_t__s": run.time}
     for result, mark, label in ((rigid, ".", f"H = {RIGIDITY} E"), (run, "+", "H = E")):
         for name, color in (("front_position", BLUE), ("distal_front_position", "black")):
             front = np.where(_nearly_met(result), np.nan, laboratory_path(result, name))
@@ -195,20 +184,12 @@ def _end_numbers(work: Workshop, theory: analytic.CompactionPulse, run: Run, rig
     stress = foam.PRESSURE * support_share_before(rigid, 0.9 * crushed_at(rigid)) / 1e6
     behind, at = theory.distal_jump.behind.stress / 1e6, f"solver at H = {RIGIDITY} E"
     work.number("11b", "stress behind the distal front", "MPa", equations=behind, solver=stress, note=at)
-    work.number(
-        "11b",
-        "end of the theory",
-        "ms",
-        paper=6.1,
-        equations=theory.end_time * 1e3,
-        solver=crushed_at(rigid) * 1e3,
-        note=f"solver: all crushed, H = {RIGIDITY} E; {crushed_at(run) * 1e3:.3f} ms at H = E, where the block springs back. "
-        f"6.1 ms comes out ({end * 1e3:.2f} ms) if stage 2 starts at v = [v] with m1 = A0 ρ0 cS T",
-    )
-    left, note = (
-        float(rigid.history["uncrushed_fraction"][-1]),
-        f"printed 8 % comes out ({100 * share:.1f} %) by the same slip",
-    )
+    ends = {"paper": 6.1, "equations": theory.end_time * 1e3, "solver": crushed_at(rigid) * 1e3}
+    note = f"solver: all crushed, H = {RIGIDITY} E; {crushed_at(run) * 1e3:.3f} ms at H = E, where the block springs back. "
+    note += f"6.1 ms comes out ({end * 1e3:.2f} ms) if stage 2 starts at v = [v] with m1 = A0 ρ0 cS T"
+    work.number("11b", "end of the theory", "ms", **ends, note=note)
+    left = float(rigid.history["uncrushed_fraction"][-1])
+    note = f"printed 8 % comes out ({100 * share:.1f} %) by the same slip"
     work.number("11b", "share not crushed then", "1", paper=0.08, equations=0.0, solver=left, note=note)
     arrest, note = theory.arrest_time * 1e3, "after the fronts have met"
     work.number("11b", "v falls to VY, T P/σP (Eq. 45 integrated)", "ms", equations=arrest, note=note)

@@ -1,4 +1,4 @@
-"""All of it, in the order of the paper."""
+"""Every figure and number of the paper, in the order of the paper."""
 
 from __future__ import annotations
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, Future
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,10 +41,10 @@ class Masses(NamedTuple):
     stress: Any
     rigid: Any
     out: Any
-    count: int
+    masses: int
 
 
-SHARED = build.Shared("Masses", {name: "f8" for name in Masses._fields} | {"told": LOAD, "count": int})
+SHARED = build.Shared("Masses", {name: "f8" for name in Masses._fields} | {"told": LOAD, "masses": int})
 
 
 class Chain(NamedTuple):
@@ -119,6 +120,19 @@ def critical(
     return Band(first, last)
 
 
+QUESTIONS = {"fully_crushed": "crushed", "enhanced": "enhanced"}  # criteria of the solver's runs, fields of `Story`
+
+
+def ask(
+    pool: Executor, chain: Chain, pressures: Sequence[float], bracket: tuple[float, float], scan: int = 12
+) -> dict[str, list[Future[Band]]]:
+    """Submit `critical` at every pressure (Pa) for both criteria; the answers come by criterion."""
+    return {
+        criterion: [pool.submit(critical, chain, question, p, bracket, scan=scan) for p in pressures]
+        for criterion, question in QUESTIONS.items()
+    }
+
+
 def answers(chain: Chain, pressure: float, shares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Whether the chain is crushed, and whether it is enhanced, at these durations over Eq. 30."""
     durations = [float(share) * foam.eq30(pressure) for share in shares]
@@ -151,7 +165,7 @@ def stress_and_stiffness(room: float, told: Any) -> tuple[float, float]:
 def press(m: Masses) -> float:
     """Stress of every spring that is no rigid link; returns the largest stiffness, Pa."""
     told, room, least, largest = m.told, m.room, m.least, MODULUS
-    for i in range(m.count):
+    for i in range(m.masses):
         least[i] = min(least[i], room[i])
         if m.rigid[i] > 0.0:
             continue
@@ -169,7 +183,7 @@ def press(m: Masses) -> float:
 
 def push(m: Masses, load: float, kick: float) -> None:
     """Kick masses; those that are linked move as one, and with the wall not at all."""
-    first, count = 0, m.count
+    first, count = 0, m.masses
     while first < count:
         last, heavy, momentum = first, m.mass[first], m.mass[first] * m.velocity[first]
         while last < count and m.rigid[last] > 0.0:
@@ -198,7 +212,7 @@ def soonest(room: Any, velocity: Any, size: float, count: int) -> float:
 
 def march(m: Masses) -> None:
     """The time loop of `follow`; `out` is a `Story`, its first three places NaN."""
-    told, room, out, count = m.told, m.room, m.out, m.count
+    told, room, out, count = m.told, m.room, m.out, m.masses
     size, time, last, support, steps = LENGTH / count, 0.0, 0.0, 0.0, 0
     while time < told.end:
         stiffness = press(m)

@@ -10,20 +10,9 @@ import numpy as np
 
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.boundary import CRITERIA, Curve, boundary_table, evaluate_at, trace_curves
-from hydro1d.studies.harrigan2010.rooms import Chain, critical
-from hydro1d.studies.harrigan2010.workshop import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    Workshop,
-    columns,
-    deck_data,
-    new_figure,
-    plain,
-)
+from hydro1d.studies.harrigan2010.colors import BLUE, GREEN, GREY, ORANGE, PURPLE, RED
+from hydro1d.studies.harrigan2010.rooms import Chain, ask
+from hydro1d.studies.harrigan2010.workshop import Workshop, columns, deck_data, new_figure, plain
 from hydro1d.sweep import Column, Table
 
 REVERSIBLE = ("time.cfl=0.05",)
@@ -35,7 +24,7 @@ STRIP = 2.4e6  # Pa
 
 
 def chain(name: str, masses: int, *overrides: str, **more: Any) -> Curve:
-    """A mass-spring boundary."""
+    """The boundary of a chain of `masses` equal zones on springs, from the deck mass_spring.toml."""
     texts = (f"layer[0].zones={masses}", "output.history=20", *overrides)
     return Curve(name, deck_data("mass_spring.toml"), texts, **{"bracket": (0.12, 1.6), **more})  # type: ignore[arg-type]
 
@@ -62,18 +51,15 @@ def figure_5(work: Workshop) -> None:
 
 def _equal(work: Workshop, counts: Sequence[int], pressures: Sequence[float]) -> list[Column]:
     """Boundaries of equal masses and reversible springs, by the integrator of `rooms`; of many masses at every third pressure."""
-    tasks = {}
-    for masses in counts:
-        own = Chain(masses, cfl=0.02)
-        some, scan = (pressures, 12) if masses == counts[0] else (pressures[::3], 24)
-        for question, criterion in zip(("crushed", "enhanced"), CRITERIA, strict=True):
-            for p in some:
-                tasks[masses, criterion, p] = work.pool.submit(critical, own, question, p, (0.12, 0.6), scan=scan)
+    few = counts[0]
+    some = {n: pressures if n == few else pressures[::3] for n in counts}
+    chains = {n: Chain(n, cfl=0.02) for n in counts}
+    asked = {n: ask(work.pool, chains[n], some[n], (0.12, 0.6), scan=12 if n == few else 24) for n in counts}
     made = []
-    for masses in counts:
-        for criterion in CRITERIA:
-            found = {p: task.result() for (n, name, p), task in tasks.items() if (n, name) == (masses, criterion)}
-            values = [found[p].last * foam.eq30(p) if p in found else math.nan for p in pressures]
+    for masses, by_criterion in asked.items():
+        for criterion, tasks in by_criterion.items():
+            found = {p: task.result().last * foam.eq30(p) for p, task in zip(some[masses], tasks, strict=True)}
+            values = [found.get(p, math.nan) for p in pressures]
             text = f"duration from which on every pulse does it, {masses} equal masses, reversible springs, {plain(criterion)}"
             made.append(Column(f"{masses} equal {criterion}", "s", text, values))
     return made

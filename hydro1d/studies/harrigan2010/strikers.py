@@ -8,7 +8,8 @@ import numpy as np
 
 from hydro1d import analytic
 from hydro1d.analytic import rppl, rppl_energy_balance
-from hydro1d.studies.harrigan2010.workshop import BLUE, GREY, RED, Size, Workshop, columns, deck_data, new_figure
+from hydro1d.studies.harrigan2010.colors import BLUE, GREY, RED
+from hydro1d.studies.harrigan2010.workshop import Size, Workshop, columns, deck_data, new_figure
 from hydro1d.sweep import Job, Table, evaluate, find_flip
 from hydro1d.sweep.job import override
 
@@ -27,13 +28,10 @@ def figure_3(work: Workshop) -> None:
     exact, wrong = (float(scheme.critical_length(MATERIAL, MASS, 400.0)) for scheme in (rppl, rppl_energy_balance))
     label, note = "critical length at 400 m/s", f"extrapolated to rigid; {stiffer[-1]:.4g} m at stiffness {stiff:g} σP"
     work.number("3", f"{label}, Eq. 13", "m", paper=2.62, equations=exact, solver=limit[-1], note=note)
-    work.number(
-        "3", f"{label}, Eq. 19", "m", paper=15.9, equations=wrong, note="Scheme 2, which the solver does not follow"
-    )
-    worst = float(np.max(np.abs(limit / rppl.critical_length(MATERIAL, MASS, speeds) - 1.0)))
-    work.number(
-        "3", "largest deviation of the solver from Eq. 13", "%", solver=100.0 * worst, note="extrapolated, all v0"
-    )
+    note = "Scheme 2, which the solver does not follow"
+    work.number("3", f"{label}, Eq. 19", "m", paper=15.9, equations=wrong, note=note)
+    worst = 100.0 * float(np.max(np.abs(limit / rppl.critical_length(MATERIAL, MASS, speeds) - 1.0)))
+    work.number("3", "largest deviation of the solver from Eq. 13", "%", solver=worst, note="extrapolated, all v0")
 
 
 def _draw(work: Workshop, lengths: Table) -> None:
@@ -58,12 +56,8 @@ def _critical_length(size: Size, speed: float, stiffness: float) -> float:
     data = deck_data("striker.toml")
     guess = float(rppl.critical_length(MATERIAL, MASS, speed))
     end = 1.2 * MASS * speed / MATERIAL.plateau_stress
-    fixed = (
-        override("left.velocity", speed),
-        override("material.foam.stiffness", stiffness),
-        override("time.end", end),
-        override("layer[0].zones", size.zones),
-    )
+    values = {"left.velocity": speed, "material.foam.stiffness": stiffness, "time.end": end}
+    fixed = [override(key, value) for key, value in {**values, "layer[0].zones": size.zones}.items()]
 
     def crushed(length: float) -> bool:
         texts = (*fixed, override("layer[0].thickness", length))

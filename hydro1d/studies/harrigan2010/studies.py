@@ -9,8 +9,9 @@ from typing import Any
 from hydro1d.studies.harrigan2010 import foam
 from hydro1d.studies.harrigan2010.boundaries import foam_curve
 from hydro1d.studies.harrigan2010.boundary import Curve, trace_curves, twice_as_long, with_the_pulse
+from hydro1d.studies.harrigan2010.colors import BLUE, RED
 from hydro1d.studies.harrigan2010.springs import PLASTIC, REVERSIBLE, chain
-from hydro1d.studies.harrigan2010.workshop import BLUE, RED, Workshop, new_figure
+from hydro1d.studies.harrigan2010.workshop import Workshop, new_figure
 from hydro1d.sweep import Column, Table
 
 PRESSURES = (2.4e6, 3.6e6, 10e6)

@@ -24,9 +24,6 @@ from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
 from hydro1d.threads import threads_here
 
-BLUE, RED, GREEN, ORANGE = "#1f5fa8", "#c0392b", "#2e8b57", "#e08a00"
-PURPLE, GREY, BROWN, GOLD, PINK, LILAC = "#7d3c98", "#777777", "#8b5a2b", "#d9b648", "#d98cb3", "#b9a3d4"
-
 
 class Number(NamedTuple):
     """One number in three columns: what the paper prints, what its equations give, what the solver gives."""
@@ -55,7 +52,7 @@ class Picture(NamedTuple):
 
     @property
     def figure(self) -> str:
-        """Its number as in numbers.csv: fig11a is 11a, new2_peak_map is new 2."""
+        """The figure's number as in numbers.csv: fig11a is 11a, new2_peak_map is new 2."""
         kind, number = re.fullmatch(r"(fig|new)0*(\d+[ab]?)(?:_\w+)?", self.name).groups()  # type: ignore[union-attr]
         return number if kind == "fig" else f"new {number}"
 
@@ -180,7 +177,7 @@ def deck_path(name: str) -> Path:
 
 
 def deck_data(name: str) -> dict[str, Any]:
-    """Its data."""
+    """The data of one of the paper's decks, as nested tables."""
     return base_data(deck_path(name))[0]
 
 
@@ -197,7 +194,7 @@ def columns(**named: Sequence[float] | np.ndarray) -> Table:
 
 
 def plain(criterion: str) -> str:
-    """An outcome's name as words."""
+    """The name of an outcome in words, fully_crushed as "fully crushed"."""
     return criterion.replace("_", " ")
 
 

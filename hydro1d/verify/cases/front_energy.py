@@ -16,11 +16,11 @@ from hydro1d.loads.constant import Constant
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import PLATEAU, Material
-from hydro1d.verify.measure import START_UP, Front, Recording, measure_front, order, simulate
+from hydro1d.verify.convergence import order
+from hydro1d.verify.measure import START_UP, Front, Recording, measure_front, simulate
 from hydro1d.verify.rows import Table, line
 
 LOAD = 4.5
-ROWS = 5
 REASON = (
     "plateau states are right to 1e-3 and better; 5e-3 is what the comparison of two integrals over the front needs"
 )
@@ -52,6 +52,9 @@ def _passage(material: Material, jump: Jump, zones: int) -> Passage:
 
 
 def _study(table: Table, effort: Effort, material: Material) -> None:
+    """A pressure of 4.5 plateau stresses. What the front absorbs per volume against ½(σB + σA)[ε]; its excess over the
+    area under the curve against the work of the viscosity over the volume passed.
+    """
     exact = pressure_step(material.curve, LOAD * PLATEAU)
     jump = exact.jumps()[-1]
     zones = effort.zones(120)
@@ -59,13 +62,8 @@ def _study(table: Table, effort: Effort, material: Material) -> None:
     _absorbed(table, jump, passages[-1])
     _excess(table, material, jump, passages[-1])
     errors = [passage.absorbed / jump.absorbed_energy - 1.0 for passage in passages]
-    table.bound(
-        "ρ0[e], finest",
-        abs(errors[-1]),
-        5e-3,
-        "converges, or is there already",
-        order=None if abs(errors[-1]) < 1e-4 else order(zones, errors),
-    )
+    observed = None if abs(errors[-1]) < 1e-4 else order(zones, errors)
+    table.bound("ρ0[e], finest", abs(errors[-1]), 5e-3, "converges, or is there already", order=observed)
     _figures(table, material, exact, passages[-1])
 
 
@@ -99,22 +97,12 @@ def _figures(table: Table, material: Material, exact: StepLoading, passage: Pass
     ]
     table.panel("the front in the stress–strain plane", "ε", "σ, MPa", lines)
     end, density = passage.run.frames[-1].time, material.law.density
-    lines = [
-        line(x, density * exact(x, end).internal_energy / 1e6, "exact", "exact"),
-        line(x, density * fields["internal_energy"] / 1e6, f"{column.zones} zones"),
-    ]
-    table.panel("energy", "X, m", "ρ0 e, MJ/m³", lines)
+    theory, found = (density * energy / 1e6 for energy in (exact(x, end).internal_energy, fields["internal_energy"]))
+    table.beside("energy", "X, m", "ρ0 e, MJ/m³", (x, theory), (x, found), f"{column.zones} zones")
 
 
-def cases() -> list[Case]:
-    """A case for some laws."""
-    about = (
-        "A pressure of 4.5 plateau stresses. What the front absorbs per volume against ½(σB + σA)[ε]; its excess "
-        "over the area under the "
-        "curve against the work of the viscosity over the volume passed."
-    )
-    chosen = (materials.epph(), materials.epph_tangent(), materials.rph(), materials.trilinear(50.0), materials.rppl())
-    return [
-        Case(f"front-energy {m.name}", f"Energy across the front, {m.name}", about, ROWS, partial(_study, material=m))
-        for m in chosen
-    ]
+LAWS = (materials.epph(), materials.epph_tangent(), materials.rph(), materials.trilinear(50.0), materials.rppl())
+CASES = [
+    Case.of(f"front-energy {m.name}", f"Energy across the front, {m.name}", 5, partial(_study, material=m))
+    for m in LAWS
+]

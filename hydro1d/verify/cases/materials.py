@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from hydro1d import analytic
+from hydro1d.analysis.theory import curve_of
 from hydro1d.laws.base import Law
 from hydro1d.laws.eph import EPH
 from hydro1d.laws.epph import EPPH
@@ -40,24 +41,25 @@ class Material(NamedTuple):
     zones: int = 120  # coarsest resolution of its steps: finer where a weak or nearly linear front is many zones wide
 
 
+def _material(word: str, law: Law, **more: Any) -> Material:
+    """A law of the deck with the curve that the theory has for it."""
+    curve = curve_of({"law": word, **law.model_dump()})
+    assert curve is not None
+    return Material(**{"name": word, "law": law, "curve": curve, **more})
+
+
 def epph() -> Material:
-    """Eq. 39; its curve ends at p = 6.9."""
-    return Material(
-        "epph", EPPH(**FOAM, shock_slope=SLOPE), analytic.EPPH(**FOAM, shock_slope=SLOPE), (1.5, 3.0, 4.5, 6.0)
-    )
+    """E-P-P-H by Eq. 39, a curve that ends at 6.9 plateau stresses."""
+    return _material("epph", EPPH(**FOAM, shock_slope=SLOPE), pressures=(1.5, 3.0, 4.5, 6.0))
 
 
 def epph_tangent() -> Material:
-    """Eq. 38."""
-    return Material(
-        "epph-tangent",
-        EPPHTangent(**FOAM, beta=BETA, gamma=GAMMA),
-        analytic.TangentEPPH(**FOAM, beta=BETA, gamma=GAMMA),
-    )
+    """E-P-P-H by Eq. 38."""
+    return _material("epph-tangent", EPPHTangent(**FOAM, beta=BETA, gamma=GAMMA))
 
 
 def table() -> Material:
-    """Forty points of Eq. 38."""
+    """A table of forty points on Eq. 38."""
     smooth = epph_tangent().curve
     strains = np.concatenate([[PLATEAU / MODULUS], np.linspace(DENSIFICATION, 0.985, 40)])
     points = tuple((float(e), float(smooth.stress(e))) for e in strains)
@@ -67,25 +69,22 @@ def table() -> Material:
 
 
 def rph() -> Material:
-    """Hardening from the first, elastic below."""
+    """A foam that hardens from yield on and is elastic below."""
     law = RPH(density=DENSITY, modulus=MODULUS, plateau_stress=PLATEAU, hardening=0.1e6)
-    return Material("rph", law, analytic.RPH(DENSITY, MODULUS, PLATEAU, 0.1e6), zones=600)
+    return _material("rph", law, zones=600)
 
 
 def eph() -> Material:
-    """Two straight lines: no shock."""
-    hardening = 4e6
-    law = EPH(density=DENSITY, modulus=MODULUS, yield_stress=PLATEAU, hardening_modulus=hardening)
-    curve = analytic.EPH(DENSITY, MODULUS, PLATEAU, hardening)
-    return Material("eph", law, curve, (1.5, 2.0, 3.0, 4.0), shock=False, zones=240)
+    """Two straight lines, in which no shock runs."""
+    law = EPH(density=DENSITY, modulus=MODULUS, yield_stress=PLATEAU, hardening_modulus=4e6)
+    return _material("eph", law, pressures=(1.5, 2.0, 3.0, 4.0), shock=False, zones=240)
 
 
 def trilinear(ratio: float) -> Material:
     """Locks with ``ratio`` plateau stresses per strain, early enough to take ten plateau stresses."""
     foam = FOAM | {"densification_strain": min(DENSIFICATION, 0.95 - 9.0 / ratio)}
-    law = Trilinear(**foam, locking_modulus=ratio * PLATEAU)
-    curve = analytic.Trilinear(**foam, locking_modulus=ratio * PLATEAU)
-    return Material(f"trilinear-{ratio:g}", law, curve, stiff=ratio > 100.0, zones=240 if ratio < 20.0 else 120)
+    law, zones = Trilinear(**foam, locking_modulus=ratio * PLATEAU), 240 if ratio < 20.0 else 120
+    return _material("trilinear", law, name=f"trilinear-{ratio:g}", stiff=ratio > 100.0, zones=zones)
 
 
 def rppl(
@@ -93,16 +92,12 @@ def rppl(
 ) -> Material:
     """R-P-P-L at a finite stiffness."""
     parameters = {"plateau_stress": plateau, "densification_strain": locking, "stiffness": stiffness}
-    law = RPPL(density=density, **parameters)  # type: ignore[call-arg]
-    return Material(
-        "rppl", law, analytic.stiff_rppl(density, plateau, locking, stiffness * plateau), stiff=True, zones=240
-    )
+    return _material("rppl", RPPL(density=density, **parameters), stiff=True, zones=240)  # type: ignore[call-arg]
 
 
 def eppr() -> Material:
     """Elastic and plastic as the others, then nearly rigid."""
-    law = EPPR(**FOAM, stiffness=STIFFNESS)
-    return Material("eppr", law, analytic.stiff_eppr(**FOAM, stiffness=STIFFNESS * PLATEAU), stiff=True, zones=240)
+    return _material("eppr", EPPR(**FOAM, stiffness=STIFFNESS), stiff=True, zones=240)
 
 
 def with_a_shock() -> list[Material]:

@@ -13,7 +13,8 @@ from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import rppl
-from hydro1d.verify.measure import Recording, extrapolate, order, simulate
+from hydro1d.verify.convergence import extrapolate
+from hydro1d.verify.measure import Recording, simulate
 from hydro1d.verify.rows import Table, line
 
 FOAM = RPPL(155.0, 0.3e6, 0.67)  # Fig. 3 of the paper
@@ -21,9 +22,9 @@ MASS, VELOCITY = 40.0, 100.0
 STIFFNESSES = (1000.0, 4000.0, 16000.0)  # in plateau stresses: the law's default, and what 1 % of the rigid limit takes
 SHARES = (0.1, 0.3, 0.5, 0.7)  # of the stopping displacement
 HALVINGS = 8
-ROWS = 23
 FINITE = "theory of the same finite stiffness (precursor, two fronts): what is left is the numerical front"
 RIGID = "the precursor's velocity √(σP/(K ρ0)) is left out by the rigid theory: 0.35 m/s, 0.35 % of v0, at this K"
+STIFFEST = "K = 16000 σP", 1e-2, RIGID
 LIMIT = "the line through three stiffnesses in K^(−½), at zero"
 SEARCH = "bisection to 0.1 % of the length; the rigid limit by extrapolation in K^(−½)"
 
@@ -71,11 +72,8 @@ def _finite(table: Table, exact: RPPLStriker, run: Recording) -> None:
     table.bound("K = 1000 σP: v(t) over v0, against finite-K theory", float(gap), 5e-3, FINITE)
     front = np.abs(np.interp(t, run["time"], run["front_position"]) - history.front).max() / exact.critical_length
     table.bound("K = 1000 σP: front over lCR, against finite-K theory", float(front), 5e-3, FINITE)
-    lines = [
-        line(1e3 * t, history.velocity, "theory, K = 1000 σP", "exact"),
-        line(1e3 * run["time"], run["left_striker_velocity"], "run"),
-    ]
-    table.panel("striker at the default stiffness", "t, ms", "v, m/s", lines)
+    velocities = (1e3 * t, history.velocity), (1e3 * run["time"], run["left_striker_velocity"])
+    table.beside("striker at the default stiffness", "t, ms", "v, m/s", *velocities, "run", "theory, K = 1000 σP")
 
 
 def _critical_length(stiffness: float, guess: float, zones: int) -> tuple[float, float]:
@@ -97,6 +95,11 @@ def _critical_length(stiffness: float, guess: float, zones: int) -> tuple[float,
 
 
 def _study(table: Table, effort: Effort) -> None:
+    """40 kg/m² at 100 m/s on R-P-P-L (Fig. 3's foam). A rigid material is regularised by lines of slope K; the case
+    shows the run at the default K against the theory of that K, the run at 16000 σP against the rigid formulas, and the
+    limit in K^(−½). lCR is found by bisection on the length of the column; ψ is the internal energy of the column that
+    is just fully crushed.
+    """
     free = RPPLStriker(FOAM, MASS, VELOCITY)
     exact = RPPLStriker(FOAM, MASS, VELOCITY, 1.3 * free.critical_length)
     zones = effort.zones(250)[-2] if effort.full else 250
@@ -107,57 +110,38 @@ def _study(table: Table, effort: Effort) -> None:
     velocities = np.array([p.velocity for p in passages])
     stresses = np.array([p.stress for p in passages])
     for k, share in enumerate(SHARES):
-        table.compare(
-            f"v/v0 at {share:g} of the way (Eq. 8), K = 16000 σP", theory[k], velocities[-1, k], 1e-2, RIGID, scale=1.0
-        )
-        limit = extrapolate(STIFFNESSES, velocities[:, k], 0.5)
-        table.compare(f"v/v0 at {share:g} of the way (Eq. 8), limit", theory[k], limit, 3e-3, LIMIT, scale=1.0)
+        name, limit = f"v/v0 at {share:g} of the way (Eq. 8)", (3e-3, LIMIT)
+        table.rigid_limit(name, theory[k], STIFFNESSES, velocities[:, k], STIFFEST, limit, scale=1.0)
     for k, share in enumerate(SHARES[1:], start=1):
-        table.compare(f"σD over Eq. 9 at {share:g} of the way, K = 16000 σP", 1.0, stresses[-1, k], 1e-2, RIGID)
-        limit = extrapolate(STIFFNESSES, stresses[:, k], 0.5)
-        table.compare(f"σD over Eq. 9 at {share:g} of the way, limit", 1.0, limit, 1e-2, LIMIT)
-    errors = np.abs(velocities - theory).max(axis=1)
-    found = order(np.sqrt(STIFFNESSES), errors)
-    table.bound("v/v0, approach to the limit, order in √K", errors[-1], 1e-2, LIMIT, order=found, least_order=0.8)
-    found_lengths = [_critical_length(k, free.critical_length, zones // 2) for k in STIFFNESSES]
-    lengths, ratios = (np.array(values) for values in zip(*found_lengths, strict=True))
-    table.compare("lCR by search (Eq. 13), K = 16000 σP, m", free.critical_length, lengths[-1], 1e-2, SEARCH)
-    table.compare(
-        "lCR by search (Eq. 13), limit, m", free.critical_length, extrapolate(STIFFNESSES, lengths, 0.5), 1e-2, SEARCH
-    )
-    psi = float(energy_ratio(FOAM, MASS, free.critical_length))
-    table.compare("ψ (Eq. 12), K = 16000 σP", psi, ratios[-1], 1e-2, SEARCH)
-    table.compare("ψ (Eq. 12), limit", psi, extrapolate(STIFFNESSES, ratios, 0.5), 1e-2, SEARCH)
-    table.report(
-        "lCR by search at the default stiffness, m",
-        free.critical_length,
-        lengths[0],
-        "the precursor crushes the far end too",
-    )
-    table.report("ψ at the default stiffness", psi, ratios[0], "reported")
+        name, limit = f"σD over Eq. 9 at {share:g} of the way", (1e-2, LIMIT)
+        table.rigid_limit(name, 1.0, STIFFNESSES, stresses[:, k], STIFFEST, limit)
+    errors, name = np.abs(velocities - theory).max(axis=1), "v/v0, approach to the limit, order in √K"
+    table.converges(name, np.sqrt(STIFFNESSES), errors, 1e-2, LIMIT, least_order=0.8)
+    lengths = _searched(table, free.critical_length, zones // 2)
     _figures(table, exact, runs[-1], errors, np.abs(lengths / free.critical_length - 1.0))
+
+
+def _searched(table: Table, exact: float, zones: int) -> np.ndarray:
+    """The critical length (m) and ψ by bisection at every stiffness; returns the lengths."""
+    found = [_critical_length(k, exact, zones) for k in STIFFNESSES]
+    lengths, ratios = (np.array(values) for values in zip(*found, strict=True))
+    limit = extrapolate(STIFFNESSES, lengths, 0.5)
+    table.compare("lCR by search (Eq. 13), K = 16000 σP, m", exact, lengths[-1], 1e-2, SEARCH)
+    table.compare("lCR by search (Eq. 13), limit, m", exact, limit, 1e-2, SEARCH)
+    psi, stiffest = float(energy_ratio(FOAM, MASS, exact)), ("K = 16000 σP", 1e-2, SEARCH)
+    table.rigid_limit("ψ (Eq. 12)", psi, STIFFNESSES, ratios, stiffest, (1e-2, SEARCH))
+    both = "the precursor crushes the far end too"
+    table.report("lCR by search at the default stiffness, m", exact, lengths[0], both)
+    table.report("ψ at the default stiffness", psi, ratios[0], "reported")
+    return lengths
 
 
 def _figures(table: Table, exact: RPPLStriker, run: Recording, errors: np.ndarray, lengths: np.ndarray) -> None:
     u = np.linspace(0.0, 0.999 * exact.critical_length * FOAM.densification_strain, 300)
-    lines = [
-        line(u, exact.velocity_at(u), "Eq. 8", "exact"),
-        line(run["left_striker_position"], run["left_striker_velocity"], "K = 16000 σP"),
-    ]
-    table.panel("velocity of the striker", "u, m", "v, m/s", lines)
-    table.panel(
-        "convergence", "K/σP", "error", [line(STIFFNESSES, errors, "v/v0"), line(STIFFNESSES, lengths, "lCR")], log=True
-    )
+    velocities = (u, exact.velocity_at(u)), (run["left_striker_position"], run["left_striker_velocity"])
+    table.beside("velocity of the striker", "u, m", "v, m/s", *velocities, "K = 16000 σP", "Eq. 8")
+    lines = [line(STIFFNESSES, errors, "v/v0"), line(STIFFNESSES, lengths, "lCR")]
+    table.panel("convergence", "K/σP", "error", lines, log=True)
 
 
-def cases() -> list[Case]:
-    """One case."""
-    about = (
-        "40 kg/m² at 100 m/s on R-P-P-L (Fig. 3's foam). A rigid material is regularised by lines of slope K; the "
-        "case shows the run at "
-        "the default K against the theory of that K, the run at 16000 σP against the rigid formulas, and the limit "
-        "in K^(−½). lCR is "
-        "found by bisection on the length of the column; ψ is the internal energy of the column that is just fully "
-        "crushed."
-    )
-    return [Case("rppl-striker", "Striker on R-P-P-L", about, ROWS, _study)]
+CASES = [Case.of("rppl-striker", "Striker on R-P-P-L", 23, _study)]

@@ -20,7 +20,8 @@ from hydro1d.solver.sink import Frame
 from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import PLATEAU, Material
-from hydro1d.verify.measure import Front, Recording, mean_over, measure_front, order, simulate
+from hydro1d.verify.convergence import mean_over
+from hydro1d.verify.measure import Front, Recording, measure_front, simulate
 from hydro1d.verify.rows import Line, Table, line
 
 VELOCITIES = (30.0, 80.0, 160.0, 300.0)
@@ -123,27 +124,14 @@ def _front_row(table: Table, load: str, exact: Jump, runs: list[Found], zones: t
     """A shock: as wide as some zones, at every resolution."""
     spreads = [run.front.spread for run in runs]
     width = 5.0 if exact.stress > 0.3 * exact.behind.stress else 15.0  # zones; a weak front is wider
-    table.bound(
-        f"{load}: ∫|Δε|dX/[ε], m, front",
-        spreads[-1],
-        width / zones[-1],
-        FRONT,
-        order=order(zones[-2:], spreads[-2:]),
-        least_order=0.9,
-    )
+    name, limit = f"{load}: ∫|Δε|dX/[ε], m, front", width / zones[-1]
+    table.converges(name, zones[-2:], spreads[-2:], limit, FRONT, least_order=0.9)
 
 
 def _wave_rows(table: Table, load: str, exact: Jump, runs: list[Found], zones: tuple[int, ...]) -> None:
     """A linear wave: where its centre is, and how wide diffusion by q has made it."""
     late = [abs(run.front.coordinate - CROSSED) for run in runs]
-    table.bound(
-        f"{load}: centre of the wave, m",
-        late[-1],
-        3.0 / zones[-1],
-        CENTRE,
-        order=order(zones, late),
-        least_order=0.9,
-    )
+    table.converges(f"{load}: centre of the wave, m", zones, late, 3.0 / zones[-1], CENTRE, least_order=0.9)
     linear = runs[-1].run.column.viscosity.coefficients()[0]
     diffused = math.sqrt(2.0 * linear * CROSSED / (math.pi * zones[-1]))
     spreads = [run.front.spread for run in runs]
@@ -193,12 +181,8 @@ def _case(kind: str, material: Material) -> Case:
     return Case(name, title, ABOUT.get(name, ABOUT[kind]), rows, partial(_study, material=material, kind=kind))
 
 
-def cases() -> list[Case]:
-    """A case a law and kind of load, four loads each."""
-    step, piston = "pressure-step", "piston"
-    shocks = materials.with_a_shock()
-    return [
-        *(_case(step, material) for material in shocks),
-        _case(step, materials.eph()),
-        *(_case(piston, material) for material in shocks),
-    ]
+SHOCKS = materials.with_a_shock()
+CASES = [
+    *(_case("pressure-step", material) for material in (*SHOCKS, materials.eph())),
+    *(_case("piston", material) for material in SHOCKS),
+]
