@@ -45,7 +45,6 @@ autodoc_default_options = {
 }  # `set` is of matplotlib's figures
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
-autodoc_type_aliases = {name: name for name in ("Array", "ArrayLike")}
 default_role = "code"  # a `name` in a docstring
 python_maximum_signature_line_length = 88
 toc_object_entries_show_parents = "hide"
