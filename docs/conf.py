@@ -1,7 +1,7 @@
 """Sphinx: python -m sphinx -W -q -b html docs OUT. Pages are MyST Markdown; tutorials are notebooks, run by the build.
 
-Formulas are drawn by MathJax from its usual address; `-D mathjax_path=FILE` takes a copy of your own, for reading
-without a network.
+Formulas are drawn by MathJax, whose one file is part of what is built: pages show them without a network. The reference
+of names is made from the docstrings.
 """
 
 import os
@@ -11,6 +11,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
 
+import mathjax  # noqa: E402 (its files alone, from the package django-static-mathjax)
 import matplotlib  # noqa: E402
 
 import hydro1d  # noqa: E402
@@ -22,12 +23,12 @@ author = "The hydro1d developers"
 copyright = author
 version = release = hydro1d.__version__
 
-extensions = ["myst_nb", "reference"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "api", "architecture", "reference"]
 exclude_patterns = ["_build", "jupyter_execute", "**.ipynb_checkpoints"]
 
 html_theme = "furo"
 html_title = f"hydro1d {release}"
-html_static_path = ["_static"]
+html_static_path = ["_static", str(Path(mathjax.__file__).parent / "static" / "mathjax" / "es5" / "tex-svg.js")]
 html_css_files = ["hydro1d.css"]
 html_show_copyright = False
 html_theme_options = {"navigation_with_keys": True}
@@ -35,7 +36,18 @@ html_theme_options = {"navigation_with_keys": True}
 myst_enable_extensions = ["amsmath", "dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 3
 myst_dmath_double_inline = True
-mathjax3_config = {"chtml": {"displayAlign": "left", "displayIndent": "1.5em"}}
+mathjax_path = "tex-svg.js"
+mathjax3_config = {"svg": {"displayAlign": "left", "displayIndent": "1.5em"}}
+
+autodoc_default_options = {
+    "members": True,
+    "exclude-members": "model_config,model_post_init,set",
+}  # `set` is of matplotlib's figures
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+default_role = "code"  # a `name` in a docstring
+python_maximum_signature_line_length = 88
+toc_object_entries_show_parents = "hide"
 
 nb_execution_mode = "auto"
 nb_execution_raise_on_error = True

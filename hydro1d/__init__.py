@@ -61,3 +61,8 @@ def __getattr__(name: str) -> Any:
     import importlib
 
     return getattr(importlib.import_module(f"hydro1d.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """The public names, those not yet loaded too: what TAB shows."""
+    return sorted({*globals(), *__all__} - {"TYPE_CHECKING", "annotations"})

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from matplotlib.figure import Figure
 
 from hydro1d.fit._fitting import Fit
 from hydro1d.fit._table import Tabulated
 from hydro1d.plot._base import GREY, PALETTE, legend, new_figure
 from hydro1d.plot._units import scale_for
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def draw(fit: Fit | Tabulated) -> tuple[Figure, np.ndarray]:

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, FileProblem
+from hydro1d.plot._matplotlib import without_latex
 from hydro1d.plot._units import Scale, scale_for, words
 
 if TYPE_CHECKING:
@@ -30,7 +31,17 @@ FORMATS = (".png", ".svg", ".pdf")
 
 
 class Picture(Figure):
-    """A matplotlib Figure that a notebook shows by itself; no pyplot, hence no global state."""
+    """A matplotlib Figure that a notebook shows by itself; no pyplot, hence no global state, and no LaTeX."""
+
+    def draw(self, renderer: Any) -> None:
+        """Draw on a canvas."""
+        with without_latex(self):
+            super().draw(renderer)
+
+    def savefig(self, *arguments: Any, **options: Any) -> None:
+        """Write a file, as Figure does."""
+        with without_latex(self):
+            super().savefig(*arguments, **options)
 
     def _repr_png_(self) -> bytes:
         stream = io.BytesIO()

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from hydro1d.plot import Picture
 from hydro1d.verify.rows import Line, Panel
 
 EXACT, RUNS = "#222222", ("#1769aa", "#d1495b", "#3a7d44", "#8d6a9f", "#c98b1d", "#4f9da6")
@@ -19,8 +20,6 @@ MAX_POINTS = 700  # of a line: a figure as wide as a column of text shows no mor
 def svg(panels: tuple[Panel, ...], prefix: str) -> str:
     """All panels of a case, three abreast; ``prefix`` keeps the ids of several figures on one page apart."""
     import matplotlib
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-    from matplotlib.figure import Figure
 
     style: Any = {
         "svg.fonttype": "none",
@@ -32,8 +31,7 @@ def svg(panels: tuple[Panel, ...], prefix: str) -> str:
     columns = min(len(panels), MAX_COLUMNS)
     rows = -(-len(panels) // columns)
     with matplotlib.rc_context(style):
-        figure = Figure(figsize=(4.6 * columns, 3.3 * rows), layout="constrained")
-        FigureCanvasSVG(figure)
+        figure = Picture(figsize=(4.6 * columns, 3.3 * rows), layout="constrained")
         grid = np.atleast_1d(figure.subplots(rows, columns)).ravel()
         for axes, panel in zip(grid, panels, strict=False):
             _draw(axes, panel)

@@ -17,7 +17,7 @@ from hydro1d.verify.convergence import extrapolate, order
 class Row:
     """One comparison.
 
-    error is |measured − exact|/|exact|, or absolute where exact is 0 or a scale is named in `quantity`; order is what
+    error is `|measured − exact|/|exact|`, or absolute where exact is 0 or a scale is named in `quantity`; order is what
     successive resolutions show (None: not asked for, or exact already); tolerance bounds the error (infinite: reported
     only) and least_order the order. reason says where the tolerance comes from.
     """
@@ -82,7 +82,7 @@ class Table:
         order: float | None = None,
         least_order: float | None = None,
     ) -> None:
-        """Add |measured − exact| over ``scale`` (|exact| unless given, 1 for an exact zero) against a tolerance."""
+        """Add `|measured − exact|` over ``scale`` (`|exact|` unless given, 1 for an exact zero) against a tolerance."""
         exact, measured = float(exact), float(measured)
         error = abs(measured - exact) / (abs(scale) if scale else abs(exact) or 1.0)
         passed = error <= tolerance and math.isfinite(error)  # a NaN never passes

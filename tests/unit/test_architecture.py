@@ -75,3 +75,20 @@ def test_a_warm_run_loads_neither_compiler_nor_plots(tmp_path):
     for _ in range(2):  # the first may have to compile
         answer = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert answer.strip() == "[]"
+
+
+def test_the_public_names_are_shown_before_they_are_loaded():
+    code = "import hydro1d; print(set(hydro1d.__all__) <= set(dir(hydro1d)), 'numpy' in __import__('sys').modules)"
+    answer = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert answer.split() == ["True", "False"]
+
+
+@pytest.mark.parametrize("path", files("."), ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_matplotlib_is_imported_by_the_plots_first(path):
+    """hydro1d.plot imports it whatever MPLBACKEND says; a module elsewhere that came first would fail there."""
+    if path.parent.name == "plot":
+        return
+    for node in ast.parse(path.read_text()).body:
+        names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+        names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        assert not any(name.split(".")[0] == "matplotlib" for name in names)

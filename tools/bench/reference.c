@@ -14,7 +14,7 @@
 
 enum { EPPH, EPPH_TANGENT, RPH, TABLE, IDEAL_GAS, POWER };
 
-typedef struct { /* one layer; all of it doubles and 64-bit integers, as hydro1d/bench/reference.py fills it */
+typedef struct { /* one layer; all of it doubles and 64-bit integers, as hydro1d/benchmarks/reference.py fills it */
     int64_t law, first, zones, points;
     double size, density, linear, smooth_linear, quadratic;
     double modulus, yield_strain, plateau, densification, least_unloading;

@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from hydro1d.api import run
 from hydro1d.deck import load_deck
 from hydro1d.errors import FileProblem
+from hydro1d.plot import Picture as Drawing
 from hydro1d.store import Run
 from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
@@ -138,7 +138,7 @@ class Workshop:
         if not all(math.isnan(value) for value in (item.paper, item.equations, item.solver)):
             self.numbers.append(item)
 
-    def picture(self, name: str, title: str, caption: str, figure: Figure, data: Table) -> None:
+    def picture(self, name: str, title: str, caption: str, figure: Drawing, data: Table) -> None:
         """Write NAME.png, NAME.svg and NAME.csv."""
         import matplotlib
 
@@ -198,9 +198,9 @@ def plain(criterion: str) -> str:
     return criterion.replace("_", " ")
 
 
-def new_figure(width: float = 6.4, height: float = 4.4, **grid: Any) -> tuple[Figure, Any]:
+def new_figure(width: float = 6.4, height: float = 4.4, **grid: Any) -> tuple[Drawing, Any]:
     """A figure with its axes, without pyplot's global state."""
-    figure = Figure(figsize=(width, height), layout="constrained")
+    figure = Drawing(figsize=(width, height), layout="constrained")
     axes = figure.subplots(**grid)
     for ax in np.atleast_1d(axes).flat:
         ax.grid(alpha=0.25)
