@@ -193,8 +193,9 @@ def kill_and_restart(folder: Path, deck: Path, whole, seconds: float) -> str:
     return "restarted"
 
 
+@pytest.mark.nightly
 def test_killed_commands_go_on_bit_for_bit(tmp_path):
-    """The command as a user starts it; hundreds of kills, with the start left out, are in test_kills.py."""
+    """The command as a user starts it; kills with the start left out, by hundreds, are in test_kills.py."""
     deck = write_deck(tmp_path, zones=200, end=8e-3, history=20, more="[checkpoint]\ncycles = 700\n")
     begun = time.monotonic()
     assert command("run", deck, "-o", tmp_path / "whole.h5", "--quiet").wait() == 0
