@@ -278,7 +278,8 @@ def resident() -> float:
     return pages * resource.getpagesize()
 
 
-@pytest.mark.parametrize("home", ["no home", pytest.param("read-only cache", marks=pytest.mark.slow)])
+@pytest.mark.nightly  # both compile everything anew
+@pytest.mark.parametrize("home", ["no home", "read-only cache"])
 def test_a_run_needs_no_home_and_no_cache(tmp_path, home):
     deck = write_deck(tmp_path)
     environment = {
@@ -292,7 +293,7 @@ def test_a_run_needs_no_home_and_no_cache(tmp_path, home):
     assert running.wait() == 0, running.stderr.read()
 
 
-@pytest.mark.slow  # four processes that all compile at once
+@pytest.mark.nightly  # four processes that all compile at once
 def test_concurrent_runs_share_a_folder_and_a_cache(tmp_path):
     deck = write_deck(tmp_path)
     environment = {**os.environ, "HYDRO1D_CACHE_DIR": str(tmp_path / "cache")}
