@@ -136,7 +136,9 @@ def fails(path: Path, number: int, tests: list[Path], seconds: float) -> tuple[b
             if number >= 0:
                 bring_in(path, mutated(path, number))
             code = int(
-                pytest.main(["-x", "-q", "-p", "no:cacheprovider", "--hypothesis-profile=mutants", *map(str, tests)])
+                pytest.main(
+                    ["-x", "-q", "-n0", "-p", "no:cacheprovider", "--hypothesis-profile=mutants", *map(str, tests)]
+                )
             )
         finally:
             os._exit(code)

@@ -65,14 +65,15 @@ def test_any_encoding_of_the_terminal():
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_signals_end_a_run_with_130(deck, tmp_path, number):
-    arguments = ["--set", "layer[0].zones=2000", "--set", "time.end=10 s", "-o", "long.h5"]
+    arguments = ["--set", "layer[0].zones=2000", "--set", "time.end=10 s", "-o", "long.h5", "--log-json", "log.json"]
     process = subprocess.Popen(
         [sys.executable, "-m", "hydro1d.cli", "run", deck, *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         env=ENVIRONMENT,
     )
-    _wait_for(lambda: len(list(tmp_path.iterdir())) > 1)  # the file that the run writes to
+    log = tmp_path / "log.json"
+    _wait_for(lambda: log.exists() and '"progress"' in log.read_text())
     process.send_signal(number)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130, err
@@ -86,4 +87,3 @@ def _wait_for(condition, seconds=60.0):
     end = time.monotonic() + seconds
     while not condition() and time.monotonic() < end:
         time.sleep(0.05)
-    time.sleep(0.5)

@@ -157,6 +157,7 @@ def test_summary_names_what_opened():
     assert still.endswith("; 7 still open at the end")
 
 
+@pytest.mark.nightly
 def test_compiling_is_said_on_a_terminal_and_to_the_log_and_not_when_quiet(deck, tmp_path):
     """A cache of its own, so that everything is compiled in the first run and nothing in the second."""
     cache = {"HYDRO1D_CACHE_DIR": str(tmp_path / "cache")}

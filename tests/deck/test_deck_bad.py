@@ -20,6 +20,16 @@ def problems(deck, overrides=(), **options):
     return error.value.problems
 
 
+def answered(deck):
+    """What is wrong with a deck; nothing, if it is valid."""
+    try:
+        load_deck(deck)
+    except DeckError as error:
+        assert error.exit_code == 2
+        return error.problems
+    return []
+
+
 def changed(old, new):
     assert old in MAIN
     return MAIN.replace(old, new)
@@ -145,9 +155,10 @@ def test_an_empty_deck_names_all_that_is_needed():
 
 
 @pytest.mark.parametrize("section", ["material", "layer", "left", "right", "time", "viscosity", "output", "checkpoint"])
-@pytest.mark.parametrize("value", [3, "text", True, [], [1], math.nan])
-def test_a_value_where_a_table_belongs(section, value):
-    assert any(problem.path.startswith(section) for problem in problems(data(**{section: value})))
+def test_a_value_where_a_table_belongs(section):
+    for value in (3, "text", True, [], [1], math.nan):
+        found = answered(data(**{section: value}))
+        assert any(problem.path.startswith(section) for problem in found), f"{section} = {value}: {found}"
 
 
 def test_a_material_s_name_must_be_short():
@@ -215,26 +226,27 @@ NUMERIC = list(numeric_keys())
 IDS = [f"{owner}-{key}" for owner, key, _ in NUMERIC]
 
 
-@pytest.mark.parametrize(("owner", "key", "make"), NUMERIC, ids=IDS)
-@pytest.mark.parametrize(
-    "value", [math.nan, math.inf, -math.inf, True, False, "", "abc", "3 A", "nan", [], {}, 10**400]
-)
-def test_every_numeric_key_refuses_what_is_no_number(owner, key, make, value):
-    found = problems(make(value))
-    assert any(re.search(rf"\b{key}\b", problem.path) for problem in found), found
+NO_NUMBERS = [math.nan, math.inf, -math.inf, True, False, "", "abc", "3 A", "nan", [], {}, 10**400]
 
 
 @pytest.mark.parametrize(("owner", "key", "make"), NUMERIC, ids=IDS)
-@pytest.mark.parametrize("value", [0, -1])
-def test_zero_and_negative_are_refused_or_mean_something(owner, key, make, value):
-    deck = make(value)
-    if deck.get("output", {}).get("profiles") == [0.0, 1e-3] and key == "end":
-        deck["output"] = {}
-    if value in MEANINGFUL.get((owner, key), ()):
-        load_deck(deck)
-    else:
-        found = problems(deck)
-        assert any(key in problem.path or key in problem.message for problem in found), found
+def test_every_numeric_key_refuses_what_is_no_number(owner, key, make):
+    for value in NO_NUMBERS:
+        found = answered(make(value))
+        assert any(re.search(rf"\b{key}\b", problem.path) for problem in found), f"{key} = {str(value)[:20]}: {found}"
+
+
+@pytest.mark.parametrize(("owner", "key", "make"), NUMERIC, ids=IDS)
+def test_zero_and_negative_are_refused_or_mean_something(owner, key, make):
+    for value in (0, -1):
+        deck = make(value)
+        if deck.get("output", {}).get("profiles") == [0.0, 1e-3] and key == "end":
+            deck["output"] = {}
+        found = answered(deck)
+        if value in MEANINGFUL.get((owner, key), ()):
+            assert not found, f"{key} = {value}: {found}"
+        else:
+            assert any(key in problem.path or key in problem.message for problem in found), f"{key} = {value}: {found}"
 
 
 # --- files that are no decks ---------------------------------------------------------------------------------------

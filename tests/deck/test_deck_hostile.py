@@ -1,6 +1,6 @@
 """A hundred thousand hostile decks: none a traceback, none slow, each refusal names the key, its value and what is allowed.
 
-The long form: ``python -m pytest -m slow -s tests/deck/test_deck_hostile.py``.
+The long form: ``python -m pytest -n 0 -m slow -s tests/deck/test_deck_hostile.py``.
 """
 
 from __future__ import annotations

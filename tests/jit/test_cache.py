@@ -122,6 +122,7 @@ def test_code_that_others_could_write_is_not_run(filled: tuple[Path, Path, float
     assert run(folder, tmp_path) == (force, False)
 
 
+@pytest.mark.nightly
 def test_no_cache_is_no_error(filled: tuple[Path, Path, float], tmp_path: Path) -> None:
     folder, _, force = filled
     blocked = tmp_path / "file"
@@ -129,6 +130,7 @@ def test_no_cache_is_no_error(filled: tuple[Path, Path, float], tmp_path: Path) 
     assert run(folder, blocked / "cache") == (force, True)
 
 
+@pytest.mark.nightly
 def test_processes_share_a_cache(filled: tuple[Path, Path, float], tmp_path: Path) -> None:
     folder, cache, force = filled
     copied(cache, tmp_path).unlink()

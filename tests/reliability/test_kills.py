@@ -1,7 +1,7 @@
 """kill -9 at random instants: what has a name is complete, and a restart ends bit for bit as if nothing had happened.
 
-The long form: ``python -m pytest -m slow -s tests/reliability/test_kills.py``. The run that is killed is `hydro1d run` itself
-in a forked process: the laws are compiled already, so that every kill falls into the run and none into the start of Python.
+The long form: ``python -m pytest -n 0 -m slow -s tests/reliability/test_kills.py``. The run that is killed is `hydro1d run`
+itself in a forked process: the laws are compiled already, so that every kill falls into the run and none into Python's start.
 """
 
 from __future__ import annotations

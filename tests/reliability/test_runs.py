@@ -189,8 +189,9 @@ def kill_and_restart(folder: Path, deck: Path, whole, seconds: float) -> str:
     return "restarted"
 
 
+@pytest.mark.nightly
 def test_killed_commands_go_on_bit_for_bit(tmp_path):
-    """The command as a user starts it; hundreds of kills, with the start left out, are in test_kills.py."""
+    """The command as a user starts it; kills with the start left out, by hundreds, are in test_kills.py."""
     deck = write_deck(tmp_path, zones=200, end=8e-3, history=20, more="[checkpoint]\ncycles = 700\n")
     begun = time.monotonic()
     assert command("run", deck, "-o", tmp_path / "whole.h5", "--quiet").wait() == 0
@@ -273,7 +274,8 @@ def resident() -> float:
     return pages * resource.getpagesize()
 
 
-@pytest.mark.parametrize("home", ["no home", pytest.param("read-only cache", marks=pytest.mark.slow)])
+@pytest.mark.nightly  # both compile everything anew
+@pytest.mark.parametrize("home", ["no home", "read-only cache"])
 def test_a_run_needs_no_home_and_no_cache(tmp_path, home):
     deck = write_deck(tmp_path)
     environment = {
@@ -287,7 +289,7 @@ def test_a_run_needs_no_home_and_no_cache(tmp_path, home):
     assert running.wait() == 0, running.stderr.read()
 
 
-@pytest.mark.slow  # four processes that all compile at once
+@pytest.mark.nightly  # four processes that all compile at once
 def test_concurrent_runs_share_a_folder_and_a_cache(tmp_path):
     deck = write_deck(tmp_path)
     environment = {**os.environ, "HYDRO1D_CACHE_DIR": str(tmp_path / "cache")}

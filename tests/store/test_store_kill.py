@@ -1,57 +1,59 @@
 """kill -9 at any instant: every file under a name that a user sees is complete."""
 
+import contextlib
 import os
 import random
 import signal
-import subprocess
-import sys
 import time
-from pathlib import Path
 
 import made_up
+import numpy as np
 import pytest
 from test_store_round_trip import same, write
 
 from hydro1d.store import Hdf5Sink, open_run, read_checkpoint
 
-HERE = Path(__file__).parent
-
-# Writes a run with working files, partial files and checkpoints over an earlier one; says what is safely on disk.
-WRITER = r"""
-import sys
-import made_up
-import numpy as np
-from hydro1d.store import Hdf5Sink
-
-path, total = sys.argv[1], int(sys.argv[2])
-layout = made_up.layout(profiles=16)
-with Hdf5Sink(path, layout, made_up.DECK_TEXT, made_up.RESOLVED, buffer_bytes=200_000, flush_seconds=0.01) as sink:
-    print("go", flush=True)
-    for number in range(total):
-        made_up.record(sink, number, number + 1)
-        if number % 7 == 6:
-            sink.publish_partial()
-            print("partial", number + 1, flush=True)
-        if number % 10 == 9:
-            sink.checkpoint(made_up.State(35 * (number + 1), np.full(51, float(number))))
-            print("checkpoint", number + 1, flush=True)
-    sink.maxima(made_up.maxima())
-    sink.finish("complete", 35 * total, 0.1)
-    print("complete", flush=True)
-"""
 TOTAL = 60
 EARLIER = 3
 
 
+def write_a_run(path, say):
+    """Write a run with working files, partial files and checkpoints over an earlier one; say what is safely on disk."""
+    layout = made_up.layout(profiles=16)
+    with Hdf5Sink(path, layout, made_up.DECK_TEXT, made_up.RESOLVED, buffer_bytes=200_000, flush_seconds=0.01) as sink:
+        say("go")
+        for number in range(TOTAL):
+            made_up.record(sink, number, number + 1)
+            if number % 7 == 6:
+                sink.publish_partial()
+                say(f"partial {number + 1}")
+            if number % 10 == 9:
+                sink.checkpoint(made_up.State(35 * (number + 1), np.full(51, float(number))))
+                say(f"checkpoint {number + 1}")
+        sink.maxima(made_up.maxima())
+        sink.finish("complete", 35 * TOTAL, 0.1)
+        say("complete")
+
+
 def kill_at_random(folder, chance):
+    """Kill a forked writer, which has nothing to import, after some time; its result's name and what it said."""
     path = write(folder / "run.h5", EARLIER)
-    writer = subprocess.Popen([sys.executable, "-c", WRITER, path, str(TOTAL)], cwd=HERE, stdout=subprocess.PIPE)
-    assert writer.stdout.readline() == b"go\n"
-    time.sleep(chance.uniform(0.0, 0.8))
-    writer.send_signal(signal.SIGKILL)
-    said = writer.stdout.read().decode().splitlines()
-    writer.wait()
-    return path, [line.split() for line in said]
+    reading, writing = os.pipe()
+    process = os.fork()
+    if process == 0:
+        with contextlib.suppress(BaseException):
+            write_a_run(path, lambda text: os.write(writing, f"{text}\n".encode()))
+            os._exit(0)
+        os._exit(99)
+    os.close(writing)
+    with open(reading) as said:
+        assert said.readline() == "go\n"
+        time.sleep(chance.uniform(0.0, 0.8))
+        os.kill(process, signal.SIGKILL)
+        lines = said.read().splitlines()
+    _, status = os.waitpid(process, 0)
+    assert os.WIFSIGNALED(status) or os.WEXITSTATUS(status) == 0, status
+    return path, [line.split() for line in lines]
 
 
 def check(path, said):

@@ -177,6 +177,7 @@ def kill(folder, whole, times, seed):
     return restarted
 
 
+@pytest.mark.nightly
 def test_kill(whole, tmp_path):
     kill(tmp_path, whole[0], 3, seed=1)
 

@@ -1,8 +1,10 @@
 """Every script under tools/ that reads a result: --help, what it says, how it fails."""
 
+import contextlib
 import csv
 import io
 import re
+import runpy
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -16,9 +18,19 @@ TOOLS = Path(__file__).parents[2] / "tools"
 SCRIPTS = ("contents", "xt_plot", "to_csv", "to_xdmf", "compare_runs", "track_front", "energy_table", "jump_check")
 
 
-def tool(name, *arguments, cwd=None):
-    command = [sys.executable, str(TOOLS / f"{name}.py"), *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=120)
+def tool(name, *arguments):
+    """A script run as a program in this process, which has loaded h5py, numpy and matplotlib already."""
+    command = [str(TOOLS / f"{name}.py"), *map(str, arguments)]
+    out, err = io.StringIO(), io.StringIO()
+    code = 0
+    with pytest.MonkeyPatch.context() as patch, contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        patch.setattr(sys, "argv", command)
+        patch.syspath_prepend(TOOLS)
+        try:
+            runpy.run_path(command[0], run_name="__main__")
+        except SystemExit as end:
+            code = end.code or 0
+    return subprocess.CompletedProcess(command, code, out.getvalue(), err.getvalue())
 
 
 def test_every_script_beside_these_is_tested_here():
@@ -28,7 +40,9 @@ def test_every_script_beside_these_is_tested_here():
 
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_help_and_independence(name):
-    done = tool(name, "--help")
+    """As a user starts it: in a process of its own, in which nothing is loaded yet."""
+    command = [sys.executable, str(TOOLS / f"{name}.py"), "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert (done.returncode == 0 and "RUN.h5" in done.stdout) or name in ("compare_runs", "energy_table")
     text = (TOOLS / f"{name}.py").read_text()
     assert "import hydro1d" not in text and "from hydro1d" not in text  # h5py and numpy are enough
@@ -62,10 +76,11 @@ def bad_files(result, tmp_path_factory):
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
-def test_bad_files_are_one_sentence_of_ours_and_exit_code_4(name, bad_files, tmp_path):
+def test_bad_files_are_one_sentence_of_ours_and_exit_code_4(name, bad_files, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     folder, words = bad_files
     for bad, text in words.items():
-        done = tool(name, *[folder / f"{bad}.h5"] * (2 if name == "compare_runs" else 1), cwd=tmp_path)
+        done = tool(name, *[folder / f"{bad}.h5"] * (2 if name == "compare_runs" else 1))
         assert (done.returncode, done.stdout) == (4, ""), (bad, done)
         assert done.stderr.startswith(f"{name}: ") and text in done.stderr and "Unable to" not in done.stderr
         assert done.stderr.count("\n") == 1
@@ -73,8 +88,9 @@ def test_bad_files_are_one_sentence_of_ours_and_exit_code_4(name, bad_files, tmp
 
 
 @pytest.mark.parametrize("name", sorted({*SCRIPTS} - {"contents", "compare_runs"}))
-def test_what_a_file_lacks_is_named(name, bad_files, tmp_path):
-    done = tool(name, bad_files[0] / "lacking.h5", cwd=tmp_path)
+def test_what_a_file_lacks_is_named(name, bad_files, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = tool(name, bad_files[0] / "lacking.h5")
     assert done.returncode == 4
     assert re.search(
         "there is no (time|history|node_coordinate) in it|no (profiles of 'stress'|history) in", done.stderr
