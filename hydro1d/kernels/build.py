@@ -27,6 +27,7 @@ import llvmlite
 import llvmlite.binding as llvm
 
 from hydro1d.components.parameters import Component
+from hydro1d.jit_versions import require_supported_compiler
 
 _CTYPES = {"p": ctypes.c_void_p, "q": ctypes.c_void_p, "i": ctypes.c_int64}
 _lock = threading.Lock()
@@ -54,6 +55,7 @@ def address(name: str, signature: str, content: str, make: Callable[[], Callable
             if code is None:
                 for listener in _listeners:
                     listener(name)
+                require_supported_compiler()
                 code = _compile(make(), signature)
                 _write(key, code)
             _addresses[key] = _load(code)
