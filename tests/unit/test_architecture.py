@@ -1,69 +1,12 @@
-"""What may import what, and what a warm start may load."""
+"""What a warm start may load. What may import what is in pyproject.toml, for `lint-imports`."""
 
 from __future__ import annotations
 
-import ast
 import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 PACKAGE = Path(__file__).parents[2] / "hydro1d"
-SOLVE_PATH = [
-    "api.py",
-    "viscosity.py",
-    "solver",
-    "components",
-    "laws",
-    "boundaries",
-    "loads",
-    "kernels",
-    "deck",
-    "store",
-]
-
-
-def imports(path: Path) -> set[str]:
-    """Every module of this project that a file imports, wherever in the file."""
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            found |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
-    return {name for name in found if name.startswith("hydro1d")}
-
-
-def files(*names: str) -> list[Path]:
-    paths = [PACKAGE / name for name in names]
-    return [file for path in paths for file in (path.rglob("*.py") if path.is_dir() else [path])]
-
-
-@pytest.mark.parametrize("path", files("analytic"), ids=lambda path: path.name)
-def test_theory_knows_nothing_of_the_solver(path):
-    assert all(name.startswith("hydro1d.analytic") for name in imports(path))
-
-
-@pytest.mark.parametrize("path", files(*SOLVE_PATH), ids=lambda path: str(path.relative_to(PACKAGE)))
-def test_the_solve_path_knows_nothing_of_the_theory(path):
-    assert not any(name.startswith(("hydro1d.analytic", "hydro1d.verify", "hydro1d.plot")) for name in imports(path))
-
-
-@pytest.mark.parametrize("path", files("."), ids=lambda path: str(path.relative_to(PACKAGE)))
-def test_numba_is_known_to_the_kernels_alone(path):
-    if path.parent.name == "kernels":
-        return
-    names = {
-        alias.name if isinstance(node, ast.Import) else node.module or ""
-        for node in ast.walk(ast.parse(path.read_text()))
-        if isinstance(node, ast.Import | ast.ImportFrom)
-        for alias in node.names
-    }
-    assert not any(name.split(".")[0] in ("numba", "llvmlite") for name in names) or path.parent.name in (
-        "benchmarks",
-        "cli",
-    )
 
 
 def test_a_warm_run_loads_neither_compiler_nor_plots(tmp_path):

@@ -56,7 +56,9 @@ def test_the_range_is_that_of_the_package():
 
 def test_the_command_line_says_so_once_and_ends_with_4(tmp_path):
     (tmp_path / "numba-0.65.1.dist-info").mkdir()
-    (tmp_path / "numba-0.65.1.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: numba\nVersion: 0.65.1\n")
+    (tmp_path / "numba-0.65.1.dist-info" / "METADATA").write_text(
+        "Metadata-Version: 2.1\nName: numba\nVersion: 0.65.1\n"
+    )
     command = [sys.executable, "-m", "hydro1d", "run", str(ROOT / "cases" / "sod.toml"), "-o", "sod.h5"]
     path = os.pathsep.join([str(tmp_path), str(ROOT)])
     environment = {**os.environ, "PYTHONPATH": path, "HYDRO1D_CACHE_DIR": str(tmp_path / "cache")}

@@ -93,7 +93,7 @@ def rppl(
 ) -> Material:
     """R-P-P-L at a finite stiffness."""
     parameters = {"plateau_stress": plateau, "densification_strain": locking, "stiffness": stiffness}
-    law = RPPL(density=density, **parameters)  # type: ignore[call-arg]
+    law = RPPL(density=density, **parameters)
     return Material(
         "rppl", law, analytic.stiff_rppl(density, plateau, locking, stiffness * plateau), stiff=True, zones=240
     )
