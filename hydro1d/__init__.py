@@ -9,7 +9,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # as typing has it, whose import would be a third of the time of `hydro1d --help`
 
-__version__ = "0.1.0"
+__version__ = "0.2.0.dev0"
 
 if TYPE_CHECKING:  # for type checkers and editors; at run time __getattr__ does it
     from typing import Any

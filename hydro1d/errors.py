@@ -58,6 +58,12 @@ class FileProblem(Hydro1dError):
     exit_code = 4
 
 
+class LibraryProblem(Hydro1dError):
+    """A library that hydro1d needs is missing, or is of a version that it cannot work with."""
+
+    exit_code = 4
+
+
 class Interrupted(Hydro1dError):
     """Stopped by Ctrl-C or SIGTERM; `checkpoint` is the file to restart from, if there is one, `text` what else to say."""
 

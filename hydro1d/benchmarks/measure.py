@@ -43,7 +43,7 @@ def case(name: str, zones: int, library: Any | None, repetitions: int) -> dict[s
         calls = [lambda state=state: _ours(program, state.copy(), steps)]
         if other is not None:
             calls.append(lambda state=state: _theirs(other, state.copy(), steps))
-        seconds += best(calls, repetitions)  # type: ignore[arg-type]
+        seconds += best(calls, repetitions)
     per = 1e9 / (steps * zones * len(states))
     row: dict[str, Any] = {"case": name, "zones": zones, "ns": seconds[0] * per}
     if other is not None:

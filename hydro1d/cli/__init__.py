@@ -40,6 +40,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")  # whatever the terminal's encoding, σ is no error
+    if "_ARGCOMPLETE" in os.environ:  # a shell asks what can stand at its cursor
+        from hydro1d.cli import completion
+
+        completion.answer()
     return _flushed(_guarded(arguments))
 
 

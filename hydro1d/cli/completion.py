@@ -1,22 +1,18 @@
-"""``hydro1d completion``: let the shell complete commands and options."""
+"""``hydro1d completion``: let the shell complete commands and options.
+
+The script only tells the shell to ask hydro1d itself, through argcomplete: what it offers is read off the parsers of the
+commands at that moment.
+"""
 
 from __future__ import annotations
 
 import argparse
-from typing import NamedTuple
+import os
+from collections.abc import Callable, Iterable
 
 from hydro1d.cli import _common
 
 SHELLS = ("bash", "zsh", "fish")
-
-
-class Option(NamedTuple):
-    """What a shell can offer: the words, their explanation, values if there are only a few."""
-
-    words: tuple[str, ...]
-    help: str
-    choices: tuple[str, ...]
-    takes_value: bool = False
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,150 +28,74 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Print the script."""
-    print({"bash": _bash, "zsh": _zsh, "fish": _fish}[args.shell](grammar()), end="")
+    import argcomplete
+
+    # fish would ask the hydro1d on the path; the one that is typed may be another, or the only one.
+    asked = "env (commandline -opc)[1]" if args.shell == "fish" else None
+    print(argcomplete.shellcode(["hydro1d"], shell=args.shell, argcomplete_script=asked))
 
 
-def grammar() -> dict[str, tuple[str, list[Option]]]:
-    """Explanation and options of every command, read off its argparse parser; "laws plot" is a command of two words."""
+def answer() -> None:
+    """Tell the shell, whose question is in the environment, what can stand at the cursor; then end the process."""
+    import argcomplete
+
+    argcomplete.autocomplete(grammar(os.environ.get("COMP_LINE", "").split()))
+
+
+def grammar(line: list[str]) -> argparse.ArgumentParser:
+    """One parser of all commands; one that cannot be imported, because an extra is not installed, is left out.
+
+    ``laws plot`` and ``laws fit`` have parsers of their own, which take the place of the one of ``laws`` in their lines.
+    """
     from hydro1d import cli
-    from hydro1d.cli.laws import ACTIONS
 
-    modules = {name: (name, text) for name, text in cli.COMMANDS.items()}
-    modules |= {f"laws {action}": (module, "") for action, module in ACTIONS.items()}
-    found = {}
-    for name, (module, text) in modules.items():
+    whole = argparse.ArgumentParser(cli.PROGRAM, allow_abbrev=False)
+    commands = whole.add_subparsers()
+    for name, text in cli.COMMANDS.items():
         try:
-            parser = argparse.ArgumentParser(add_help=True)
-            cli._module(module).add_arguments(parser)
-        except Exception:  # a command whose extra is not installed is left out
+            module = cli._module(name)
+        except Exception:
             continue
-        found[name] = (text, [_option(action) for action in parser._actions])
-    found.get("new", ("", []))[1].append(Option((), "", _cases()))
-    found.get("plot", ("", []))[1].append(Option((), "", _kinds()))
-    found.get("laws", ("", []))[1].append(Option((), "", (*ACTIONS, *_components())))
-    return found
+        parser = commands.add_parser(name, help=text, allow_abbrev=False)
+        if name == "laws" and len(line) > 2 and line[2] in module.ACTIONS:
+            parser = parser.add_subparsers().add_parser(line[2], allow_abbrev=False)
+            module = cli._module(module.ACTIONS[line[2]])
+        module.add_arguments(parser)
+        if parser.prog in _FIRST_WORDS:
+            first = parser._get_positional_actions()[0]
+            first.completer = _words_or_files(_FIRST_WORDS[parser.prog])  # type: ignore[attr-defined]
+    return whole
 
 
-def _option(action: argparse.Action) -> Option:
-    choices = tuple(str(choice) for choice in action.choices) if action.choices else ()
-    text = action.help if action.help and action.help != argparse.SUPPRESS else ""
-    return Option(tuple(action.option_strings), text.replace("%%", "%"), choices, action.nargs != 0)
+def _words_or_files(words: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:
+    """A completer for argcomplete."""
+    from argcomplete.completers import FilesCompleter
+
+    return lambda prefix, **_: [*words(), *FilesCompleter()(prefix)]
 
 
-def _cases() -> tuple[str, ...]:
+def _cases() -> Iterable[str]:
     from hydro1d.cli.new import CASES
 
-    return tuple(CASES)
+    return CASES
 
 
-def _kinds() -> tuple[str, ...]:
+def _kinds() -> Iterable[str]:
     from hydro1d.cli.plot import KINDS
 
-    return tuple(KINDS)
+    return KINDS
 
 
-def _components() -> tuple[str, ...]:
-    from hydro1d.cli.laws import KINDS
+def _laws() -> Iterable[str]:
+    from hydro1d.cli.laws import ACTIONS, KINDS
     from hydro1d.components.plugins import builtin_names
 
-    return tuple(dict.fromkeys(name for kind in KINDS for name in builtin_names(kind)))
+    return dict.fromkeys([*ACTIONS, *(name for kind in KINDS for name in builtin_names(kind))])
 
 
-def _of_one_word(commands: dict[str, tuple[str, list[Option]]]) -> list[str]:
-    return [name for name in commands if " " not in name]
-
-
-def _of_two_words(commands: dict[str, tuple[str, list[Option]]]) -> list[str]:
-    return [f"'{name}'" for name in commands if " " in name]
-
-
-def _words(options: list[Option]) -> str:
-    """Options, and the words that may stand by themselves."""
-    return " ".join(word for option in options for word in (option.words or option.choices))
-
-
-def _bash(commands: dict[str, tuple[str, list[Option]]]) -> str:
-    cases = "\n".join(f"        '{name}') words=\"{_words(options)}\" ;;" for name, (_, options) in commands.items())
-    return f"""# bash completion for hydro1d
-_hydro1d() {{
-    local word="${{COMP_WORDS[COMP_CWORD]}}" command="${{COMP_WORDS[1]}}" words=""
-    if [ "$COMP_CWORD" -eq 1 ]; then
-        COMPREPLY=($(compgen -W "{" ".join(_of_one_word(commands))}" -- "$word"))
-        return
-    fi
-    if [ "$COMP_CWORD" -gt 2 ]; then
-        case "$command ${{COMP_WORDS[2]}}" in
-            {"|".join(_of_two_words(commands))}) command="$command ${{COMP_WORDS[2]}}" ;;
-        esac
-    fi
-    case "$command" in
-{cases}
-    esac
-    COMPREPLY=($(compgen -W "$words" -- "$word") $(compgen -f -- "$word"))
-}}
-complete -o filenames -F _hydro1d hydro1d
-"""
-
-
-def _zsh(commands: dict[str, tuple[str, list[Option]]]) -> str:
-    listed = "\n".join(f"        '{name}:{_quoted(commands[name][0])}'" for name in _of_one_word(commands))
-    cases = "\n".join(
-        f"        '{name}') compadd -- {_words(options)}; _files ;;" for name, (_, options) in commands.items()
-    )
-    return f"""#compdef hydro1d
-_hydro1d() {{
-    local -a commands
-    commands=(
-{listed}
-    )
-    if (( CURRENT == 2 )); then
-        _describe 'command' commands
-        return
-    fi
-    local command="$words[2]"
-    if (( CURRENT > 3 )); then
-        case "$words[2] $words[3]" in
-            {"|".join(_of_two_words(commands))}) command="$words[2] $words[3]" ;;
-        esac
-    fi
-    case "$command" in
-{cases}
-    esac
-}}
-if [[ "$funcstack[1]" == _hydro1d ]]; then  # loaded from $fpath by the first completion, which is still waiting
-    _hydro1d "$@"
-else
-    compdef _hydro1d hydro1d
-fi
-"""
-
-
-_FISH = """# fish completion for hydro1d
-function __hydro1d_in
-    set -l words (commandline -opc)
-    set -l name "$words[2]"
-    contains -- "$words[2..3]" {two}; and set name "$words[2..3]"
-    test "$name" = "$argv"
-end"""
-
-
-def _fish(commands: dict[str, tuple[str, list[Option]]]) -> str:
-    lines = [_FISH.format(two=" ".join(_of_two_words(commands)))]
-    for name in _of_one_word(commands):
-        text = _quoted(commands[name][0])
-        lines.append(f"complete -c hydro1d -n __fish_use_subcommand -f -a {name} -d '{text}'")
-    for name, (_, options) in commands.items():
-        for option in options:
-            given = [f"-l {word[2:]}" if word.startswith("--") else f"-s {word[1:]}" for word in option.words]
-            values = [f"-a '{' '.join(option.choices)}'"] if option.choices else []
-            values += ["-x" if option.choices else "-r"] if option.words and option.takes_value else []
-            if given or values:
-                about = f"-d '{_quoted(option.help)}'" if option.help else ""
-                where = f"-n '__hydro1d_in {name}'"
-                lines.append(" ".join(filter(None, ["complete -c hydro1d", where, *given, *values, about])))
-    return "\n".join(lines) + "\n"
-
-
-def _quoted(text: str) -> str:
-    """Text within single quotes of any of the shells."""
-    return text.replace("'", "’").replace("\\", "")
+# What can stand as the first word of a command that its parser does not know: it takes files as well.
+_FIRST_WORDS: dict[str, Callable[[], Iterable[str]]] = {
+    "hydro1d laws": _laws,
+    "hydro1d new": _cases,
+    "hydro1d plot": _kinds,
+}

@@ -14,10 +14,11 @@ from typing import NamedTuple
 Location = tuple[str | int, ...]
 
 _MAX_PLACES = 200_000
+# No possessive quantifier around alternatives: Python 3.11 before 3.11.5 loses matches with it.
 _TOKEN = re.compile(
     r'''(?P<space>[ \t\r]+|\#[^\n]*)
     |(?P<newline>\n)
-    |(?P<string>"""(?:[^"\\]|\\[\s\S]|"{1,2}(?!"))*+"{3,5}|\'\'\'[\s\S]*?\'{3,5}|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*')
+    |(?P<string>"""[^"\\]*(?:(?:\\[\s\S]|"(?!""))[^"\\]*)*"{3,5}|\'\'\'[\s\S]*?\'{3,5}|"[^"\\\n]*(?:\\.[^"\\\n]*)*"|'[^'\n]*')
     |(?P<mark>[\[\]{}=,.])
     |(?P<bare>[^\s\[\]{}=,.#"']+)''',
     re.VERBOSE,

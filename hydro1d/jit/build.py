@@ -23,6 +23,7 @@ import numpy as np
 
 from hydro1d.components.parameters import Component
 from hydro1d.jit import cache, compile, reach
+from hydro1d.jit.versions import require_supported_compiler
 
 _lock = threading.Lock()
 _engines: list[Any] = []  # keeps the machine code alive
@@ -42,7 +43,7 @@ class Request(NamedTuple):
     which names everything that the machine code depends on, or None where that cannot be named; whether it is a leaf."""
 
     name: str
-    make: Callable[[Any], FunctionType]
+    make: Callable[[Any], Any]
     content: str | None
     is_leaf: bool = True
 
@@ -73,6 +74,7 @@ def address(request: Request, shared: Shared) -> int:
 def _compiled(request: Request, shared: Shared) -> tuple[bytes, bool]:
     for listener in _listeners:
         listener(request.name)
+    require_supported_compiler()
     from hydro1d.jit.lowering import shared_type
 
     kind = shared_type(shared.name, shared.fields)

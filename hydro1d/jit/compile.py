@@ -53,11 +53,10 @@ def _only_lowered() -> Iterator[None]:
     Loops that numba had unrolled would not vectorise any more. Nor is there looking for garbage meanwhile: numba makes
     millions of objects and keeps most of them, and that takes 5 to 8 % of its time.
     """
-    from numba import config, njit
+    import numba
 
-    from hydro1d.jit.fresh import LEAN
-
-    njit(**LEAN)(_nothing).compile(())  # numba sets its own machine up, with the level that it was given
+    config: Any = numba.config
+    numba.njit(_nothing).compile(())  # numba sets its own machine up, with the level that it was given
     was_on, before = gc.isenabled(), config.OPT
     gc.disable()
     config.OPT = type(before)(0)

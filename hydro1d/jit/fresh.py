@@ -52,8 +52,8 @@ class Copies:
             seen = self._seen(value)
             if name not in function.__globals__ or seen is value:
                 continue
-            holder, key = scope, name
-            path = name
+            holder: Any = scope
+            key = path = name
             for part in rest:
                 if path not in modules:
                     modules[path] = _shadow(_get(holder, key))

@@ -64,8 +64,8 @@ def _describe(value: Any, parts: list[str], seen: set[int]) -> None:
     elif isinstance(value, np.ndarray) and value.dtype.kind in "biufc":
         parts.append(f"array {value.dtype.str} {value.shape} {hashlib.sha256(value.tobytes()).hexdigest()}")
     elif isinstance(value, enum.EnumType):
-        for member in value:
-            _describe(member, parts, seen)
+        for name, member in value.__members__.items():
+            parts.append(f"{name} {member.value!r}")
     elif isinstance(value, type) and hasattr(value, "_fields"):
         parts.append(f"{value.__qualname__} {value._fields}")
     elif isinstance(value, np.ufunc | np.dtype):

@@ -111,6 +111,10 @@ def _reason(error: BaseException, component: type[Component]) -> str:
         reason = f"numba has no {called[1]}"
     if reason.startswith("NRT required"):  # numba's memory for objects, which kernels do without
         reason = "it makes an object (a list, an array, a text)"
+    if "FORMAT_SIMPLE" in reason or "FORMAT_WITH_SPEC" in reason:  # the opcodes that Python 3.13 makes of them
+        reason = "f-strings are not supported"
+    if "FORMAT_SIMPLE" in reason or "FORMAT_WITH_SPEC" in reason:  # the opcodes that Python 3.13 makes of them
+        reason = "f-strings are not supported"
     reason = re.sub(r"Literal\[\w+\]\(([^()]*)\)", r"\1", re.sub(r"<iv=[^>]*>", "", reason))
     reason = reason.replace(f"{component.__module__}.{component.__qualname__}", component.__name__)
     return reason if len(reason) <= _LONGEST else reason[:_LONGEST] + "…"

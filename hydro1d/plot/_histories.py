@@ -87,7 +87,7 @@ def applied_pressures(run: Run) -> list[tuple[str, np.ndarray, np.ndarray]]:
         pulse = pulse_of(run, side)
         if pulse is not None:
             end = float(run.history["time"][-1])
-            jumps = [time * (1.0 + step) for time in pulse.corners() for step in (-1e-9, 1e-9) if time < end]
+            jumps = [time * (1.0 + step) for time in pulse.breakpoints() for step in (-1e-9, 1e-9) if time < end]
             times = np.unique(np.concatenate([np.linspace(0.0, end, PULSE_POINTS), jumps]))
             found.append((side, times, np.array([pulse.pressure(float(time)) for time in times])))
     several = len(found) > 1

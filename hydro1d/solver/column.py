@@ -21,15 +21,16 @@ SIDES = (("left", 1.0), ("right", -1.0))
 class LayerBlock:
     """One layer of a column: its zones [first, first + zones) and their law, one for all or one a zone.
 
-    size: of each zone, m; a number where all are equal.
+    size: of every zone, m, where all are equal, else their mean; unequal: size of each (zones,), or None.
     """
 
     name: str
     laws: tuple[Law, ...]
     first: int
     zones: int
-    size: float | np.ndarray
+    size: float
     velocity: float
+    unequal: np.ndarray | None = None
 
     @property
     def law(self) -> Law:
@@ -39,12 +40,12 @@ class LayerBlock:
     @property
     def is_uniform(self) -> bool:
         """Whether all zones have one size and one mass."""
-        return isinstance(self.size, float) and len({law.density for law in self.laws}) == 1
+        return self.unequal is None and len({law.density for law in self.laws}) == 1
 
     @property
     def sizes(self) -> np.ndarray:
         """Size of each zone (zones,), m."""
-        return np.full(self.zones, self.size)
+        return np.full(self.zones, self.size) if self.unequal is None else self.unequal
 
     @property
     def densities(self) -> np.ndarray:
@@ -193,9 +194,8 @@ def build_column(
     blocks, first = [], 0
     for layer in layers:
         laws = tuple(getattr(layer, "laws", None) or (layer.law,))
-        size = getattr(layer, "sizes", None)
-        size = layer.thickness / layer.zones if size is None else np.asarray(size, dtype=float)
-        blocks.append(LayerBlock(layer.material, laws, first, layer.zones, size, layer.velocity))
+        size, unequal = layer.thickness / layer.zones, getattr(layer, "sizes", None)
+        blocks.append(LayerBlock(layer.material, laws, first, layer.zones, size, layer.velocity, unequal))
         first += layer.zones
     sizes = np.concatenate([block.sizes for block in blocks])
     zone_mass = sizes * np.concatenate([block.densities for block in blocks])
@@ -221,14 +221,14 @@ def build_column(
 
 
 def _thickness(block: LayerBlock) -> float:
-    return block.size * block.zones if isinstance(block.size, float) else float(block.size.sum())
+    return block.size * block.zones if block.unequal is None else float(block.unequal.sum())
 
 
 def _left_sides(block: LayerBlock) -> np.ndarray:
     """Lagrangian coordinates (zones,) of the left sides of its zones within the layer, m."""
-    if isinstance(block.size, float):
+    if block.unequal is None:
         return block.size * np.arange(block.zones)
-    return np.concatenate([[0.0], np.cumsum(block.size)[:-1]])
+    return np.concatenate([[0.0], np.cumsum(block.unequal)[:-1]])
 
 
 def initial_velocities(column: Column) -> np.ndarray:

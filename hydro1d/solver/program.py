@@ -44,7 +44,8 @@ class Program:
         self.profile_length = profiles.length(column.zones, column.variables)
         self._profiles = np.empty((0, self.profile_length))
         self._known: tuple[State, Any] | None = None
-        self._components = [[*block.laws] for block in column.layers] + [[end] for _, _, end in column.ends]
+        self._components: list[Sequence[Component]] = [block.laws for block in column.layers]
+        self._components += [(end,) for _, _, end in column.ends]
         self._members = [records.members(components) for components in self._components]
         blocks = [records.pack(members) for members in self._members]
         starts = np.cumsum([0, *(len(block) for block in blocks)])
@@ -104,7 +105,7 @@ class Program:
             self._passes.append(node_pass.kick_nodes)
             return step.march
         addresses = [maker.address() for maker in makers]
-        nodes = build.Request("nodes", lambda _: node_pass.kick_nodes, reach.digest(node_pass.kick_nodes))
+        nodes = build.Request("nodes", lambda _copies: node_pass.kick_nodes, reach.digest(node_pass.kick_nodes))
         addresses.append(build.address(nodes, SHARED))
         self._table = np.array([0, *addresses], dtype=np.int64)
         return build.function(march_address())
@@ -192,7 +193,7 @@ class _Maker:
     def __init__(self, factory: Callable, kind: type[Component], members: dict[str, Any], arguments: tuple) -> None:
         self.factory, self.kind, self.members, self.arguments = factory, kind, members, arguments
 
-    def plain(self, components: list[Component]) -> Callable:
+    def plain(self, components: Sequence[Component]) -> Callable:
         """The pass as Python on the components themselves."""
         if len(components) == 1:
             return self.factory(lambda g, number, i: components[0], *self.arguments)
@@ -254,5 +255,5 @@ def _shape(kind: type[Component], members: dict[str, Any]) -> str:
 
 def march_address() -> int:
     """Address of the time loop, which is the same for all columns."""
-    request = build.Request("march", lambda _: step.march, reach.digest(step.march), is_leaf=False)
+    request = build.Request("march", lambda _copies: step.march, reach.digest(step.march), is_leaf=False)
     return build.address(request, SHARED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -44,7 +45,7 @@ class State:
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray]) -> State:
         """The state that `arrays` described."""
-        copies = {field.name: np.array(arrays[field.name]) for field in fields(cls)}
+        copies: dict[str, Any] = {field.name: np.array(arrays[field.name]) for field in fields(cls)}
         return cls(**{name: array.view(np.recarray) if array.dtype.names else array for name, array in copies.items()})
 
     def copy(self) -> State:

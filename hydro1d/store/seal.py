@@ -76,7 +76,7 @@ def check_seal(path: Path) -> bool:
             table = os.pread(fd, count * _RANGE.size, size)
             if zlib.crc32(footer[:-4], zlib.crc32(table)) == rest:
                 ranges = list(_RANGE.iter_unpack(table))
-                if _checksum(lambda offset, length: os.pread(fd, length, offset), ranges) == content:  # type: ignore[arg-type]
+                if _checksum(lambda offset, length: os.pread(fd, length, offset), ranges) == content:
                     return True
     finally:
         os.close(fd)

@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import pytest
 
 from hydro1d import cli
-from hydro1d.cli import _common, main
+from hydro1d.cli import _common, completion, main
 
 CRITICAL = ["--key", "a", "--from", "1", "--to", "2", "--outcome", "enhanced"]
 
@@ -197,7 +197,7 @@ def test_a_deck_cannot_be_written_where_there_is_no_folder(capsys):
     assert "cannot write /nowhere/at/all.toml: No such file" in capsys.readouterr().err
 
 
-def test_completion_leaves_out_a_command_that_cannot_be_imported(monkeypatch, capsys):
+def test_completion_leaves_out_a_command_that_cannot_be_imported(monkeypatch):
     real = cli._module
 
     def module(name):
@@ -206,7 +206,5 @@ def test_completion_leaves_out_a_command_that_cannot_be_imported(monkeypatch, ca
         return real(name)
 
     monkeypatch.setattr(cli, "_module", module)
-    for shell in ("bash", "zsh", "fish"):
-        assert main(["completion", shell]) == 0
-        out = capsys.readouterr().out
-        assert "schema" not in out and "check" in out
+    offered = completion.grammar(["hydro1d", ""]).format_help()
+    assert "schema" not in offered and "check" in offered

@@ -1,8 +1,11 @@
 """hydro1d plot, new, completion, run --log-json: names, defaults, messages, exit codes."""
 
 import json
+import os
 import shutil
 import subprocess
+import sys
+from pathlib import Path
 
 import h5py
 import pytest
@@ -11,6 +14,8 @@ from hydro1d.cli import main
 from hydro1d.cli.new import CASES
 from hydro1d.deck import load_deck
 from hydro1d.sweep import Column, Table
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -147,18 +152,44 @@ def test_new_lists_and_suggests(here, capsys):
     assert not list(here.iterdir())
 
 
-@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_completion_knows_commands_and_options(shell, capsys):
-    assert main(["completion", shell]) == 0
-    script = capsys.readouterr().out
-    for word in ("plot", "report", "hugoniot", "striker", "quiet" if shell == "fish" else "--quiet"):
-        assert word in script
+@pytest.fixture
+def shell(here, monkeypatch, capsys):
+    """Runs lines of a shell that has loaded its completion script, in a folder with the command and nothing else."""
+    (here / "hydro1d").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m hydro1d "$@"\n')
+    (here / "hydro1d").chmod(0o755)
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    monkeypatch.setenv("PATH", f"{here}:{os.environ['PATH']}")
+
+    def run(name, lines, *options):
+        if shutil.which(name) is None:
+            pytest.skip(f"needs {name}")
+        assert main(["completion", name]) == 0
+        (here / "_hydro1d").write_text(capsys.readouterr().out)
+        done = subprocess.run([name, *options, "-c", lines], capture_output=True, text=True, timeout=60)
+        assert done.stderr == ""
+        return done.stdout
+
+    return run
+
+
+BASH = """
+source ./_hydro1d
+COMP_LINE='{typed}' COMP_POINT={length} COMP_WORDS=({typed}) COMP_CWORD={last} COMP_TYPE=9
+$(complete -p hydro1d | sed 's/.*-F \\([^ ]*\\) .*/\\1/') hydro1d
+printf '%s\\n' "${{COMPREPLY[@]}}"
+"""
 
 
 @pytest.mark.parametrize(
     ("typed", "offered"),
     [
+        ("pl", ["plot"]),
         ("plot hug", ["hugoniot"]),
+        ("plot hyd", ["hydro1d"]),
+        ("plot --frame lab", ["laboratory"]),
+        ("new bl", ["blast"]),
+        ("new str", ["striker"]),
+        ("run --qui", ["--quiet"]),
         ("laws pl", ["plot"]),
         ("laws epph-", ["epph-tangent"]),
         ("laws plot --mat", ["--material"]),
@@ -166,49 +197,45 @@ def test_completion_knows_commands_and_options(shell, capsys):
         ("laws fit --str", ["--strain-unit", "--stress-unit"]),
     ],
 )
-def test_bash_completion_works(capsys, here, typed, offered):
-    main(["completion", "bash"])
-    (here / "c.sh").write_text(capsys.readouterr().out)
-    words = typed.split()
-    lines = f"source c.sh; COMP_WORDS=(hydro1d {typed}); COMP_CWORD={len(words)}; _hydro1d; echo ${{COMPREPLY[@]}}"
-    done = subprocess.run(["bash", "-c", lines], capture_output=True, text=True)
-    assert done.stdout.split() == offered
+def test_bash_completion_works(shell, typed, offered):
+    line = f"hydro1d {typed}"
+    lines = BASH.format(typed=line, length=len(line), last=len(line.split()) - 1)
+    assert shell("bash", lines).split() == offered
 
 
+# The keys of a terminal would bring `_describe` the same list.
 ZSH = """
 autoload -U compinit && compinit -D
-compadd() { shift; print -l -- "$@" }; _files() { }; _describe() { print -l -- ${(P)2} }
-words=(hydro1d plot hug) CURRENT=3
-fpath=(. $fpath); autoload -Uz _hydro1d; _hydro1d
-print -- ---
-words=(hydro1d p) CURRENT=2; _hydro1d
-print -- ---
-words=(hydro1d laws fit --) CURRENT=4; _hydro1d
-print -- ---
+_describe() { print -l -- ${(P)2} }
+complete_line() { BUFFER=$1 CURSOR=${#1} words=(${=1}); _hydro1d; print -- --- }
+fpath=(. $fpath); autoload -Uz _hydro1d is-at-least
+complete_line 'hydro1d plot hug'
+complete_line 'hydro1d plot --'
+complete_line 'hydro1d p'
+complete_line 'hydro1d laws fit --'
 unfunction _hydro1d; source ./_hydro1d; print $_comps[hydro1d]
 """
 
 
-@pytest.mark.skipif(shutil.which("zsh") is None, reason="needs zsh")
-def test_zsh_completion_works(capsys, here):
-    main(["completion", "zsh"])
-    (here / "_hydro1d").write_text(capsys.readouterr().out)
-    done = subprocess.run(["zsh", "-f", "-c", ZSH], capture_output=True, text=True, timeout=60)
-    assert done.stderr == ""
-    options, commands, fit, registered = (part.split("\n") for part in done.stdout.split("---\n"))
-    assert {"hugoniot", "animate", "--frame", "--quantity"} <= {*options}
+def test_zsh_completion_works(shell):
+    kinds, options, commands, fit, registered = (part.split("\n") for part in shell("zsh", ZSH, "-f").split("---\n"))
+    assert any(line.startswith("hugoniot") for line in kinds)
+    assert any(line.startswith("--frame:where things are") for line in options)
     assert any(line.startswith("plot:draw figures of a run") for line in commands)
-    assert "--stress-unit" in fit and "--frame" not in fit
-    assert registered[0] == "_hydro1d"
+    assert any(line.startswith("--stress-unit:") for line in fit) and not any(
+        line.startswith("--frame") for line in fit
+    )
+    assert registered[0] == "_python_argcomplete"
 
 
-@pytest.mark.skipif(shutil.which("fish") is None, reason="needs fish")
 @pytest.mark.parametrize(
     ("typed", "offered"),
     [
         ("hydro1d pl", "plot\tdraw figures"),
+        ("./hydro1d pl", "plot\tdraw figures"),
         ("hydro1d plot hug", "hugoniot"),
         ("hydro1d plot --frame lab", "laboratory"),
+        ("hydro1d plot hyd", "hydro1d"),
         ("hydro1d new bl", "blast"),
         ("hydro1d run --qui", "--quiet\tno progress"),
         ("hydro1d laws fit --stress", "--stress-unit\t"),
@@ -216,22 +243,14 @@ def test_zsh_completion_works(capsys, here):
         ("hydro1d laws epph-t", "epph-tangent"),
     ],
 )
-def test_fish_completion_works(capsys, here, typed, offered):
-    main(["completion", "fish"])
-    (here / "hydro1d.fish").write_text(capsys.readouterr().out)
-    command = f"source hydro1d.fish; complete -C '{typed}'"
-    done = subprocess.run(["fish", "--no-config", "-c", command], capture_output=True, text=True, timeout=60)
-    assert done.stderr == ""
-    assert any(line.startswith(offered) for line in done.stdout.splitlines()), done.stdout
+def test_fish_completion_works(shell, typed, offered):
+    found = shell("fish", f"source _hydro1d; complete -C '{typed}'", "--no-config")
+    assert any(line.startswith(offered) for line in found.splitlines()), found
 
 
-@pytest.mark.skipif(shutil.which("fish") is None, reason="needs fish")
-def test_fish_does_not_take_laws_plot_for_plot(capsys, here):
-    main(["completion", "fish"])
-    (here / "hydro1d.fish").write_text(capsys.readouterr().out)
-    command = "source hydro1d.fish; complete -C 'hydro1d laws plot --'"
-    done = subprocess.run(["fish", "--no-config", "-c", command], capture_output=True, text=True, timeout=60)
-    assert "--material" in done.stdout and "--frame" not in done.stdout
+def test_fish_does_not_take_laws_plot_for_plot(shell):
+    found = shell("fish", "source _hydro1d; complete -C 'hydro1d laws plot --'", "--no-config")
+    assert "--material" in found and "--frame" not in found
 
 
 def test_log_json(here, capsys):

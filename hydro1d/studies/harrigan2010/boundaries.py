@@ -29,7 +29,7 @@ TARGETS = (2.4e6, 3.6e6, 10e6)  # Pa
 def foam_curve(name: str, deck: str, zones: int, *overrides: str, **more: Any) -> Curve:
     """A boundary of the continuum."""
     texts = (f"layer[0].zones={zones}", "output.history=20", *overrides)
-    return Curve(name, deck_data(deck), texts, **{"bracket": (0.55, 1.8), **more})  # type: ignore[arg-type]
+    return Curve(name, deck_data(deck), texts, **{"bracket": (0.55, 1.8), **more})
 
 
 def figure_6(work: Workshop) -> None:

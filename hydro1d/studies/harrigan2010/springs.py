@@ -26,7 +26,7 @@ STRIP = 2.4e6  # Pa
 def chain(name: str, masses: int, *overrides: str, **more: Any) -> Curve:
     """The boundary of a chain of `masses` equal zones on springs, from the deck mass_spring.toml."""
     texts = (f"layer[0].zones={masses}", "output.history=20", *overrides)
-    return Curve(name, deck_data("mass_spring.toml"), texts, **{"bracket": (0.12, 1.6), **more})  # type: ignore[arg-type]
+    return Curve(name, deck_data("mass_spring.toml"), texts, **{"bracket": (0.12, 1.6), **more})
 
 
 def figure_5(work: Workshop) -> None:

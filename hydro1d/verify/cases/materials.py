@@ -92,7 +92,7 @@ def rppl(
 ) -> Material:
     """R-P-P-L at a finite stiffness."""
     parameters = {"plateau_stress": plateau, "densification_strain": locking, "stiffness": stiffness}
-    return _material("rppl", RPPL(density=density, **parameters), stiff=True, zones=240)  # type: ignore[call-arg]
+    return _material("rppl", RPPL(density=density, **parameters), stiff=True, zones=240)
 
 
 def eppr() -> Material:
