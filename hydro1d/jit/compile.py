@@ -12,7 +12,7 @@ from typing import Any
 
 import llvmlite.binding as llvm
 
-from hydro1d.jit.refusals import NotCompilable, noticed
+from hydro1d.jit.refusals import NotCompilable, makers_of_objects, noticed
 
 INTEGERS = 4  # of a pass, behind the arguments that all share
 # What machine code may call: the mathematics of the C library.
@@ -43,7 +43,10 @@ def object_code(make: Any, shared: Any, is_integer: list[bool], is_leaf: bool) -
         dispatcher = copies.compiled(make(copies), error_model="numpy", fastmath={"contract", "arcp"})
         dispatcher.compile(kinds)
         text = dispatcher.inspect_llvm(kinds)
-    return _emit(text, is_integer, is_leaf)
+    code = _emit(text, is_integer, is_leaf)
+    if code is None:
+        raise NotCompilable(makers_of_objects(text, copies.owners.values()), RuntimeError("it makes a Python object"))
+    return code
 
 
 @contextlib.contextmanager
@@ -72,7 +75,8 @@ def _nothing() -> None:
     pass
 
 
-def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool]:
+def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool] | None:
+    """Object code, and whether it lasts; None where it would need Python."""
     native = next(
         function.name
         for function in llvm.parse_assembly(text).functions
@@ -97,9 +101,8 @@ def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool
         module = llvm.parse_assembly(re.sub(r"\bnoinline\b", "alwaysinline", str(module)))
     passes.getModulePassManager().run(module, passes)
     needed = [function.name for function in module.functions if function.is_declaration]
-    python = [name for name in needed if _PYTHON.match(name)]
-    if python:
-        raise NotCompilable([], RuntimeError("it makes or prints a Python object"))
+    if any(_PYTHON.match(name) for name in needed):
+        return None
     lasts = all(_LIBRARY.fullmatch(name) for name in needed) and not _ADDRESS.search(str(module))
     return machine.emit_object(module), lasts
 

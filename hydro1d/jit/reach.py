@@ -47,7 +47,7 @@ def digest(*functions: Any) -> str:
 
 def _describe(value: Any, parts: list[str], seen: set[int]) -> None:
     python = getattr(value, "py_func", value)  # of a compiled function of numba
-    if is_of_library(python):
+    if isinstance(value, BuiltinFunctionType) or is_of_library(python):
         parts.append(f"{python.__module__} {getattr(python, '__qualname__', python)}")
     elif isinstance(python, FunctionType):
         _describe_function(python, parts, seen)
@@ -77,10 +77,9 @@ def _describe(value: Any, parts: list[str], seen: set[int]) -> None:
 
 
 def is_of_library(value: Any) -> bool:
-    """Whether a function or class belongs to Python or to a library whose version names it well enough."""
-    if not isinstance(value, FunctionType | BuiltinFunctionType | type):
-        return False
-    return (value.__module__ or "builtins").split(".")[0] in LIBRARIES
+    """Whether something callable belongs to Python or to a library whose version names it well enough."""
+    home = getattr(value, "__module__", None) if callable(value) else None
+    return isinstance(home, str) and home.split(".")[0] in LIBRARIES
 
 
 def _describe_function(function: FunctionType, parts: list[str], seen: set[int]) -> None:

@@ -6,10 +6,11 @@ innermost first; the first that is neither numba's nor hydro1d's is the author's
 
 from __future__ import annotations
 
+import dis
 import linecache
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FunctionType
@@ -25,6 +26,7 @@ _MAY_USE = (
 )
 _SIGNATURE = re.compile(r"^\s*>>> (.+)$", re.MULTILINE)
 _RAISED_FROM = re.compile(r"\s*Raised from .* \((\d+)\)$")
+_MAKE_OBJECTS = ("BUILD_LIST", "BUILD_SET", "BUILD_MAP", "BUILD_STRING", "FORMAT_VALUE")
 _LONGEST = 200  # characters of what numba said
 
 
@@ -41,6 +43,14 @@ class NotCompilable(Exception):
     def __init__(self, failures: list[Failure], error: BaseException) -> None:
         self.failures = failures
         super().__init__(f"numba cannot compile a kernel: {error}")
+
+
+def makers_of_objects(text: str, owners: Iterable[FunctionType]) -> list[Failure]:
+    """Of numba's module, the functions that make Python's objects or ask for memory, which machine code here does without."""
+    error = RuntimeError("it makes an object (a list, an array, a text)")
+    bodies = [part.split("\n}", 1)[0] for part in re.split(r"(?m)^define ", text)[1:]]
+    guilty = " ".join(body.split("\n", 1)[0] for body in bodies if re.search(r"@_?(NRT_|Py|numba_unpickle)", body))
+    return [Failure(owner, error) for owner in owners if f"{len(owner.__name__)}{owner.__name__}B" in guilty]
 
 
 @contextmanager
@@ -96,7 +106,10 @@ def _line(failure: Failure) -> int:
     if place is not None and place.filename == failure.function.__code__.co_filename:
         return int(place.line)
     named = _RAISED_FROM.search(str(failure.error))
-    return int(named[1]) if named else 0
+    if named:
+        return int(named[1])
+    made = (step.positions for step in dis.get_instructions(failure.function) if step.opname in _MAKE_OBJECTS)
+    return next((place.lineno for place in made if place and place.lineno), 0)
 
 
 def _reason(error: BaseException, component: type[Component]) -> str:
@@ -109,10 +122,6 @@ def _reason(error: BaseException, component: type[Component]) -> str:
     called = _SIGNATURE.search(text)
     if reason.startswith("No implementation of function") and called:
         reason = f"numba has no {called[1]}"
-    if reason.startswith("NRT required"):  # numba's memory for objects, which kernels do without
-        reason = "it makes an object (a list, an array, a text)"
-    if "FORMAT_SIMPLE" in reason or "FORMAT_WITH_SPEC" in reason:  # the opcodes that Python 3.13 makes of them
-        reason = "f-strings are not supported"
     if "FORMAT_SIMPLE" in reason or "FORMAT_WITH_SPEC" in reason:  # the opcodes that Python 3.13 makes of them
         reason = "f-strings are not supported"
     reason = re.sub(r"Literal\[\w+\]\(([^()]*)\)", r"\1", re.sub(r"<iv=[^>]*>", "", reason))

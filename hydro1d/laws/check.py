@@ -6,7 +6,7 @@ import math
 
 from hydro1d.components.parameters import derived
 from hydro1d.errors import DeckError
-from hydro1d.laws.base import Foam, Law, Point, Response
+from hydro1d.laws.base import Foam, Law, Point, Response, answer_by_point
 
 _STRAINS = (0.0, 1e-6, 1e-4, 1e-3, *(0.005 * k for k in range(1, 181)))
 _STEP = 1.0  # s
@@ -74,10 +74,22 @@ def _reason(law: Law, error: Exception) -> str:
 
 
 def _asked(law: Law, point: Point, state: tuple[float, ...]) -> Response:
+    if type(law).respond is answer_by_point:
+        _check_answer(
+            law.point(point.strain, max(state[0], point.strain), 0.0, point.energy, state[1:]), len(state) - 1
+        )
     response = law.respond(point, state)
     if not isinstance(response, Response):
         raise ValueError(f"respond must return a Response({', '.join(Response._fields)})")
     return response
+
+
+def _check_answer(answer: object, variables: int) -> None:
+    """Of a law written for version 0.1."""
+    if not isinstance(answer, tuple) or len(answer) != 5:
+        raise ValueError("point must return (stress, tangent, stiffness, smooth, history)")
+    if not isinstance(answer[4], tuple) or len(answer[4]) != variables:
+        raise ValueError(f"history must be a tuple of {variables} numbers, as the class declares")
 
 
 def _check_response(strain: float, response: Response, variables: int) -> None:

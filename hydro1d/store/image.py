@@ -182,10 +182,15 @@ def _maxima(file: h5py.File, recorder: Recorder) -> list[str]:
     return [item.path for item in known]
 
 
+def _kinds(dtype: np.dtype) -> list[str]:
+    """The kind of an array's numbers, or of each member of its records."""
+    return [field[0].kind for field in dtype.fields.values()] if dtype.fields else [dtype.kind]
+
+
 def _state(file: h5py.File, state: Mapping[str, np.ndarray]) -> list[str]:
     hdf5.new_group(file, "state")
     for name, array in state.items():
-        if array.dtype.kind not in "fiub":
+        if not all(kind in "fiub" for kind in _kinds(array.dtype)):
             raise TypeError(f"the state holds {name} of type {array.dtype}, which cannot be stored exactly")
         stored = array.astype(np.uint8) if array.dtype.kind == "b" else array
         text = f"state of the solver: {name.replace('_', ' ')}"

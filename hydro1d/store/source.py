@@ -110,7 +110,7 @@ class FileSource:
             kind = dataset.dtype.kind
             if kind == "O" and dataset.ndim == 1:
                 return np.array([text.decode() for text in dataset[()]], dtype=object)
-            if kind not in "fiu":
+            if kind not in "fiuV":
                 raise FileProblem(f"{self.name} is damaged: {path} has the type {dataset.dtype}")
             values = np.asarray(dataset[()])
             if "crc32" not in dataset.attrs:

@@ -205,7 +205,7 @@ def test_every_foam_passes_its_check(name):
 def test_room_shrinks_and_stays_positive(name):
     law = FOAMS[name]
     for closing in (0.0, 1e-3, 10.0, 1e3):
-        rooms = [law.room(strain, closing) for strain in np.linspace(0.0, 0.95, 50)]
+        rooms = [law.strain_to_lockup(strain, closing) for strain in np.linspace(0.0, 0.95, 50)]
         assert all(later <= earlier + 1e-15 for earlier, later in itertools.pairwise(rooms))
         assert min(rooms) > 0.0
 

@@ -41,7 +41,7 @@ def test_the_cotangent_is_that_of_the_library():
 
 def test_what_a_bare_law_leaves_open_and_what_it_answers():
     law = Elastic(density=3.0, modulus=1e6)
-    assert law.room(0.3, 5.0) == 0.7 and law.initial_energy == 0.0 and law.crushed_strain == math.inf
+    assert law.strain_to_lockup(0.3, 5.0) == 0.7 and law.initial_energy == 0.0 and law.crushed_strain == math.inf
     assert not law.is_open(-1e9) and not law.is_open(0.0)
     with pytest.raises(NotImplementedError):
         Law(density=1.0).point(0.0, 0.0, 0.0, 0.0, ())
@@ -107,16 +107,16 @@ def test_room_of_a_locking_foam_by_hand():
     assert law.hardening_slowness == pytest.approx(slowness, rel=1e-9)
     for strain, closing in ((0.1, 1e-3), (0.1, 1e4), (0.68, 3.0), (0.689, 3.0), (0.75, 3.0), (0.75, 1e4)):
         expected = max(0.689 - strain, 0.0) + min(strain_to_double, closing * slowness)
-        assert law.room(strain, closing) == pytest.approx(min(1.0 - strain, expected), rel=1e-9)
-    assert law.room(0.9999, 1e9) == pytest.approx(1e-4), "never more than is left"
-    assert 0.0 < law.room(0.8, 0.0) <= 1e-29
+        assert law.strain_to_lockup(strain, closing) == pytest.approx(min(1.0 - strain, expected), rel=1e-9)
+    assert law.strain_to_lockup(0.9999, 1e9) == pytest.approx(1e-4), "never more than is left"
+    assert 0.0 < law.strain_to_lockup(0.8, 0.0) <= 1e-29
 
 
 def test_which_curves_lock():
     flat = Table(density=50.0, modulus=1e7, curve=((0.1, 1e5), (0.6, 1.02e5), (0.8, 1e6)))
     steep = Table(density=50.0, modulus=1e7, curve=((0.1, 1e5), (0.5, 2.5e5), (0.8, 1e6)))
     assert (flat.locks, steep.locks) == (1.0, 0.0)
-    assert steep.room(0.7, 1e-3) == pytest.approx(0.3) and steep.room(-0.5, 1e-3) == 1.0
+    assert steep.strain_to_lockup(0.7, 1e-3) == pytest.approx(0.3) and steep.strain_to_lockup(-0.5, 1e-3) == 1.0
     assert (
         TRILINEAR.locks == 1.0 and EPH(density=1.0, modulus=1e6, yield_stress=1e4, hardening_modulus=1e5).locks == 0.0
     )
@@ -188,7 +188,7 @@ def test_a_gas_by_hand():
     assert stress == pytest.approx(0.5 * 2.0 / 0.8 * 1e5) and smooth and history == ()
     assert tangent == stiffness == pytest.approx(1.5 * stress / 0.8)
     assert law.initial_energy == pytest.approx(3e5 / (0.5 * 2.0))
-    assert law.room(0.2, 1.0) == pytest.approx(0.8 * 8.0 / 2.5)
+    assert law.strain_to_lockup(0.2, 1.0) == pytest.approx(0.8 * 8.0 / 2.5)
 
 
 def test_eph_by_hand():

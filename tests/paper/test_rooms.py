@@ -1,6 +1,7 @@
 """Chains known by their room: against another integrator, against the solver, and in the limit of springs that lock."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,12 +10,12 @@ from hydro1d.studies.harrigan2010 import asked, foam
 from hydro1d.studies.harrigan2010.bands import bands
 from hydro1d.studies.harrigan2010.boundary import at_rest, critical_durations, with_the_pulse
 from hydro1d.studies.harrigan2010.chain import equal_masses, spring
-from hydro1d.studies.harrigan2010.rooms import Chain, answers, critical, follow, push, stress_and_stiffness
+from hydro1d.studies.harrigan2010.rooms import Chain, Masses, answers, critical, follow, push, stress_and_stiffness
 from hydro1d.studies.harrigan2010.springs import PLASTIC, REVERSIBLE, chain
 
 HALF = Chain(end_mass=0.5)
 RATE = foam.GAMMA * 0.5 * math.pi / (1.0 - foam.LOCKING)
-EQ38 = np.array([foam.BETA, RATE, math.tan((1.0 - foam.GAMMA) * 0.5 * math.pi)])
+EQ38 = SimpleNamespace(beta=foam.BETA, rate=RATE, start=math.tan((1.0 - foam.GAMMA) * 0.5 * math.pi))
 
 
 def test_spring_and_its_stiffness():
@@ -65,10 +66,11 @@ def test_linked_masses_move_as_one_and_keep_their_momentum():
     mass, velocity = np.array([1.0, 2.0, 2.0, 2.0]), np.array([30.0, 10.0, -5.0, 0.0, 0.0])
     stress, rigid = np.array([7.0, 0.0, 3.0, 2.0]), np.array([1.0, 0.0, 1.0, 0.0])
     before = np.sum(mass * velocity[:-1])
-    push(mass, velocity, stress, rigid, 5.0, 0.1, 4)
+    masses = Masses(None, mass, None, None, velocity, stress, rigid, None, 4)
+    push(masses, 5.0, 0.1)
     assert velocity[0] == velocity[1] != velocity[2] == velocity[3]
     assert np.sum(mass * velocity[:-1]) == pytest.approx(before + 0.1 * (5.0 - stress[-1]), rel=1e-14)
-    push(mass, velocity, stress, np.array([0.0, 0.0, 1.0, 1.0]), 5.0, 0.1, 4)
+    push(masses._replace(rigid=np.array([0.0, 0.0, 1.0, 1.0])), 5.0, 0.1)
     assert np.all(velocity[2:] == 0.0)  # linked to the wall
     assert velocity[0] != velocity[1]
 

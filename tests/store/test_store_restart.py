@@ -208,7 +208,7 @@ SPLIT = DECK.replace("zones = 30", "zones = 20").replace(
 @pytest.mark.parametrize(
     ("deck", "words"),
     [
-        (SPLIT, r"holds numbers \(2, \d+\) as numbers, this deck needs \(3, \d+\)"),
+        (SPLIT, r"holds numbers \(2,\) as layer_state, this deck needs \(3,\)"),
         (DECK.replace("zones = 30", "zones = 31"), r"as velocity, this deck needs \(74,\)"),
     ],
 )
