@@ -19,7 +19,7 @@ if TYPE_CHECKING:  # for type checkers and editors; at run time __getattr__ does
     from hydro1d.components.parameters import above, at_least, derived, fraction, not_negative, number, pairs, positive  # noqa: F401
     from hydro1d.deck import Deck, Layer, load_deck  # noqa: F401
     from hydro1d.errors import BreakdownError, DeckError, FileProblem, Hydro1dError, Interrupted  # noqa: F401
-    from hydro1d.laws.base import Foam, Law, PlateauFoam  # noqa: F401
+    from hydro1d.laws.base import Foam, Law, PlateauFoam, Point, Response  # noqa: F401
     from hydro1d.loads.base import Pulse  # noqa: F401
     from hydro1d.store import Run, open_run  # noqa: F401
 
@@ -37,7 +37,9 @@ _HOME = {
     "Law": "laws.base",
     "Layer": "deck",
     "PlateauFoam": "laws.base",
+    "Point": "laws.base",
     "Pulse": "loads.base",
+    "Response": "laws.base",
     "Run": "store",
     "above": "components.parameters",
     "at_least": "components.parameters",

@@ -36,14 +36,14 @@ def axes(size=(5.2, 3.1)) -> tuple[Figure, plt.Axes]:
 
 
 def answers(law, loads) -> np.ndarray:
-    """Strain and stress along a list of strains, the largest remembered, at constant entropy for a gas."""
-    largest, energy, stress, before, rows = 0.0, law.initial_energy, None, 0.0, []
-    history = tuple(type(law).history.values())
+    """Strain and stress along a list of strains, loaded slowly, at constant entropy for a gas."""
+    from hydro1d import Point
+
+    energy, stress, before, rows = law.initial_energy, 0.0, 0.0, []
+    state = tuple(law.state_variables.values())
     for strain in loads:
-        largest = max(largest, strain)
-        if stress is not None:
-            energy += stress * (strain - before) / law.density
-        stress, _, _, _, history = law.point(strain, largest, 0.0, energy, history)
+        energy += stress * (strain - before) / law.density
+        stress, *_, state = law.respond(Point(strain, strain - before, 1.0, energy, 0.0), state)
         rows.append((strain, stress))
         before = strain
     return np.array(rows)
@@ -112,7 +112,7 @@ def mesh() -> None:
             ax.plot([i], [row], "o", mfc="white", color="#D55E00", label=label)
     for i in range(4):
         for row in (0.0, 2.0):
-            label = "zone: ε, σ, q, e, history" if i == row == 0 else None
+            label = "zone: ε, σ, q, e, state" if i == row == 0 else None
             ax.plot([i + 0.5], [row], "s", color="#0072B2", markersize=8, label=label)
     arrow = {"arrowstyle": "->", "color": GREY, "shrinkA": 6, "shrinkB": 6}
     ax.annotate("", (2, 1), (1.5, 0), arrowprops=arrow)
