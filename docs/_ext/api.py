@@ -4,6 +4,8 @@ import re
 
 from pydantic import BaseModel
 
+from hydro1d.components.plugins import builtin_names, find
+
 # What numpy's names for types are spelled out as, and the names.
 SPELLED = {
     r"(?:~?\w+\.)*_?Buffer \| .*?_NestedSequence\[[^\[\]]*\]": "ArrayLike",
@@ -35,7 +37,13 @@ def without_aliases(app, what, name, thing, options, lines):
 
 
 def setup(app):
-    """Register the hooks."""
+    """Register the hooks.
+
+    All laws are loaded first: autodoc gives `Foam` the annotations that type checkers alone see, and a law derived after that
+    would take them for keys.
+    """
+    for name in builtin_names("law"):
+        find("law", name)
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", without_aliases)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -24,7 +24,7 @@ PACKAGE = Path(__file__).parents[2] / "hydro1d"
 STAGES = {
     "ways in": ("#333333", ("cli", "api")),
     "what to run": ("#E69F00", ("deck", "components", "laws", "boundaries", "interfaces", "loads")),
-    "the calculation": ("#0072B2", ("solver", "scheme", "jit", "kernels")),
+    "the calculation": ("#0072B2", ("solver", "scheme", "jit")),
     "the result": ("#009E73", ("store",)),
     "what it says": ("#CC79A7", ("analysis", "plot", "report", "sweep", "fit")),
     "is it right, how fast": ("#8C6D31", ("analytic", "verify", "studies", "benchmarks")),
