@@ -40,7 +40,13 @@ FAULTS = (
     ),
     Fault(
         "viscosity ten times too strong",
-        (("scheme/viscosity.py", VISCOSITY, r"\1(10.0 * self.linear, 10.0 * self.smooth_linear, 10.0 * self.quadratic)"),),
+        (
+            (
+                "scheme/viscosity.py",
+                VISCOSITY,
+                r"\1(10.0 * self.linear, 10.0 * self.smooth_linear, 10.0 * self.quadratic)",
+            ),
+        ),
         ("pressure-step epph", "riemann sod"),
     ),
     Fault(
@@ -51,7 +57,8 @@ FAULTS = (
     Fault(
         "work of the viscosity half a step apart",
         tuple(
-            (name, r"viscosity\[i\] \* \(jump_before \+ jump\)", r"viscosity[i] * (2.0 * jump_before)") for name in PASSES
+            (name, r"viscosity\[i\] \* \(jump_before \+ jump\)", r"viscosity[i] * (2.0 * jump_before)")
+            for name in PASSES
         ),
         ("front-energy trilinear-50",),
     ),
