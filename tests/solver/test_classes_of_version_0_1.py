@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import importlib
 from types import ModuleType
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import hydro1d
 from hydro1d import End
 from hydro1d.laws.base import Point
 from hydro1d.laws.check import check_law
+from hydro1d.laws.elastic import Elastic
 
 OLD = '''
 import math
@@ -216,6 +218,20 @@ def test_a_law_answers_as_it_did(classes):
     assert response.state == (0.05, *answer[4])
     assert classes.Sticky.state_variables == {"largest_strain": 0.0, "damage": 0.0, "strain_path": 0.0}
     assert law.crushed_strain == pytest.approx(0.24)
+
+
+def test_a_subclass_may_begin_with_other_values(classes):
+    class Worn(classes.Sticky):
+        history: ClassVar = {"damage": 0.2, "strain_path": 0.1}
+
+    class Plain(classes.Sticky):
+        pass
+
+    assert Worn.state_variables == {"largest_strain": 0.0, "damage": 0.2, "strain_path": 0.1}
+    assert Plain.state_variables == classes.Sticky.state_variables
+    assert Worn(**STICKY).at(0.1).state == pytest.approx((0.1, 0.2, 0.1**0.5))
+    assert Plain(**STICKY).at(0.1).state == pytest.approx((0.1, 0.125, 0.1**0.5))
+    assert Elastic.state_variables == {}
 
 
 def test_a_foam_answers_as_it_did(classes):
