@@ -6,6 +6,7 @@ from hydro1d.jit.primitives import at, call
 from hydro1d.scheme.history import centre_ends, centred_increment, centred_velocity
 from hydro1d.scheme.outputs import NODE, ZONE, Node, Zone, writer_of
 from hydro1d.scheme.records import Grid
+from hydro1d.scheme.zone_pass import scales
 
 HEAD = 2  # time and cycle
 NODE_FIELDS, ZONE_FIELDS = len(NODE), len(ZONE)
@@ -44,7 +45,8 @@ def show_layer(g: Grid, number: int, start: int) -> None:
         left = right
     call(g.passes, number, number, layer.first, layer.end, 1)
     for i in range(layer.first, layer.end):
-        size = layer.zone_size if layer.is_uniform else g.size[i]
-        density = layer.density if layer.is_uniform else 1.0 / (g.inverse_zone_mass[i] * size)
-        strain = (g.displacement[i] - g.displacement[i + 1]) / size
+        per_size, per_mass = scales(g, layer, i, layer.is_uniform)
+        density = layer.density if layer.is_uniform else per_size / per_mass
+        # Times the inverse size, as in the zone pass: a last digit off, it would exceed the largest strain so far.
+        strain = (g.displacement[i] - g.displacement[i + 1]) * per_size
         write_zone(g, Zone(i, density, strain, g.seen_energy[i]), g.profiles, start + i, g.zones)

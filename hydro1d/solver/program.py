@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -154,8 +155,10 @@ class Program:
     def _run(self, state: State, which: tuple[int, ...] | None = None, **arrays: np.ndarray) -> None:
         """The time loop, or one pass by number, on the grid of a state."""
         if build.interpreted():
-            grid = _plain_grid({**self.own, **state.arrays(), "stops": None, "profiles": None, **arrays}, self._passes)
+            values = {**self.own, **state.arrays(), "stops": None, "profiles": None, **arrays}
+            grid = _plain_grid(values, self._passes)
             self._march(grid) if which is None else grid.passes[which[0]](*which[1:])
+            _write_back(grid, values)
             return
         if self._known is None or self._known[0] is not state:
             values = {**self.own, **state.arrays(), "stops": self._table, "profiles": self._table}
@@ -174,17 +177,40 @@ class Program:
 _REMEMBERED = ("curve", "tangents", "stiffnesses", "speeds")
 
 
+# Records with plain attributes: reading one of numpy's costs as much as ten operations on it.
+_MEMBERS = {name: dtype.names or () for name, dtype in RECORDS.items()}
+_PLAIN = {name: type(name, (), {"__slots__": members}) for name, members in _MEMBERS.items()}
+
+
 def _plain_grid(values: dict[str, Any], passes: list[Callable]) -> Grid:
-    """The grid as plain Python works on it: arrays flat, as a pointer sees them; single records as records."""
+    """The grid as plain Python works on it: arrays flat, as a pointer sees them; copies of the records."""
+    seen: dict[str, Any] = {}
     for name, value in values.items():
-        if name in SINGLE:
-            values[name] = value[0]
-        elif isinstance(value, np.ndarray) and name not in RECORDS:
-            values[name] = value.reshape(-1)
+        if name in RECORDS:
+            copies = [_plain(name, record) for record in value]
+            seen[name] = copies[0] if name in SINGLE else copies
+        else:
+            seen[name] = value.reshape(-1) if isinstance(value, np.ndarray) else value
     bound: list[Callable] = []
-    grid = Grid(**values, passes=bound)
-    bound += [lambda *integers, run=run: run(grid, *integers) for run in passes]
+    grid = Grid(**seen, passes=bound)
+    bound += [functools.partial(run, grid) for run in passes]
     return grid
+
+
+def _plain(name: str, record: np.record) -> Any:
+    """A copy of a record. Its floats stay numpy's, of which a quotient by zero is infinite, as it is when compiled."""
+    copy = _PLAIN[name]()
+    for member in _MEMBERS[name]:
+        setattr(copy, member, record[member])
+    return copy
+
+
+def _write_back(grid: Grid, values: dict[str, Any]) -> None:
+    """Put what plain Python has made of its copies of the records into these."""
+    for name, members in _MEMBERS.items():
+        copies = getattr(grid, name)
+        for k, copy in enumerate([copies] if name in SINGLE else copies):
+            values[name][k] = tuple(getattr(copy, member) for member in members)
 
 
 class _Maker:

@@ -57,6 +57,16 @@ def test_energy_and_momentum_close(law, ends):
     assert np.abs(momentum - momentum[0] - impulse).max() < 1e-12 * scale
 
 
+@pytest.mark.parametrize("law", LAWS)
+def test_no_strain_exceeds_the_largest_so_far(law):
+    """Not by a last digit: a zone on its loading curve shows the same number twice."""
+    _, kept = run(
+        [layer(LAWS[law], thickness=0.7, zones=60)], PULSE, Wall(), end=4e-3, profile_times=np.linspace(0.0, 4e-3, 9)
+    )
+    for frame in kept.frames:
+        assert (frame.fields["strain"] <= frame.fields["largest_strain"]).all()
+
+
 def test_two_moving_layers_close_energy_and_momentum():
     layers = [layer(STEEL, 0.01, 4, velocity=30.0), layer(FOAM, 0.5, 100)]
     outcome, kept = run(layers, Free(), Wall(), end=6e-3)

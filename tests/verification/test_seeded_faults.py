@@ -1,7 +1,7 @@
 """The suite must fail when the code is wrong: errors seeded into a copy of the package turn it red.
 
 Each fault is a textual edit that asserts that it found its target. The copy runs as a process of its own, with a cache of
-its own that holds the kernels of the sound code already: those that an edit changes must not be met there, or the suite
+its own that holds the machine code of the sound passes already: those that an edit changes must not be met there, or the suite
 stays green and the test fails.
 """
 
@@ -31,33 +31,43 @@ class Fault:
 
 
 VISCOSITY = r"(if self\.kind == \"none\" else )\(self\.linear, self\.smooth_linear, self\.quadratic\)"
+PASSES = ("scheme/zone_pass.py", "scheme/foam_pass.py")
 FAULTS = (
     Fault(
         "viscosity ten times too weak",
-        (("viscosity.py", VISCOSITY, r"\1(0.1 * self.linear, 0.1 * self.smooth_linear, 0.1 * self.quadratic)"),),
+        (("scheme/viscosity.py", VISCOSITY, r"\1(0.1 * self.linear, 0.1 * self.smooth_linear, 0.1 * self.quadratic)"),),
         ("pressure-step epph", "riemann sod"),
     ),
     Fault(
         "viscosity ten times too strong",
-        (("viscosity.py", VISCOSITY, r"\1(10.0 * self.linear, 10.0 * self.smooth_linear, 10.0 * self.quadratic)"),),
+        (
+            (
+                "scheme/viscosity.py",
+                VISCOSITY,
+                r"\1(10.0 * self.linear, 10.0 * self.smooth_linear, 10.0 * self.quadratic)",
+            ),
+        ),
         ("pressure-step epph", "riemann sod"),
     ),
     Fault(
         "energy work with the wrong velocity",
-        (("kernels/zones.py", r"\(jump_before \+ jump\)", "(jump + jump)"),),
+        tuple((name, r"\(jump_before \+ jump\)", "(jump + jump)") for name in PASSES),
         ("riemann sod", "symmetry"),
     ),
     Fault(
         "work of the viscosity half a step apart",
-        (("kernels/zones.py", r"viscosity\[i\] \* \(jump_before \+ jump\)", r"viscosity[i] * (2.0 * jump_before)"),),
+        tuple(
+            (name, r"viscosity\[i\] \* \(jump_before \+ jump\)", r"viscosity[i] * (2.0 * jump_before)")
+            for name in PASSES
+        ),
         ("front-energy trilinear-50",),
     ),
     Fault(
         "clock shifted by one step",
         (
             (
-                "kernels/history.py",
-                r"(end\[0\], end\[1\], end\[2\] = a\.ledger\[TIME\])(, a\.ledger\[LAST_STEP\], step\b)",
+                "scheme/ends.py",
+                r"(end\.time, end\.step_before, end\.step_after = g\.clock\.time)(, g\.clock\.last_step, step\b)",
                 r"\1 + step\2",
             ),
         ),
@@ -86,7 +96,7 @@ FAULTS = (
     ),
     Fault(
         "time step above its bound",
-        (("kernels/march.py", r"(ledger\[NEXT_STEP\] = )(ledger\[CFL\] \* stable)", r"\g<1>1.5 * \2"),),
+        (("scheme/step.py", r"(clock\.next_step = )(clock\.cfl \* stable)", r"\g<1>1.5 * \2"),),
         ("elastic-bar", "smooth", "symmetry"),
     ),
 )
