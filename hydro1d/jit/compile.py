@@ -8,11 +8,11 @@ import gc
 import re
 import threading
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
 
-from hydro1d.jit.refusals import NotCompilable, makers_of_objects, noticed
+from hydro1d.jit.refusals import UNRESOLVED, NotCompilable, callers_of_themselves, makers_of_objects, noticed
 
 INTEGERS = 4  # of a pass, behind the arguments that all share
 # What machine code may call: the mathematics of the C library.
@@ -21,17 +21,26 @@ _LIBRARY = re.compile(
     r"|erf|erfc|ldexp|frexp|copysign|fabs|fmin|fmax|fma|memset|memcpy|memmove|llvm\..*)f?"
 )
 _PYTHON = re.compile(r"_?Py|numba_(gil|unpickle|do_raise)|NRT_")
-_ADDRESS = re.compile(r"inttoptr \(i64 \d+ to|i64 \d{12,} to ptr")
+_ADDRESS = re.compile(r"numba\.dynamic\.globals|inttoptr \(i64 \d+ to")  # of this process
 _target: Any = None
 _compiling = threading.RLock()
 
 
-def object_code(make: Any, shared: Any, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool]:
-    """Object code with one public symbol, ``kernel``, and whether it would run in another process too.
+class MachineCode(NamedTuple):
+    """Object code with one public symbol, ``kernel``; why it would not run in another process, else ""; and what must
+    stay alive as long as it runs."""
 
-    ``make`` takes `fresh.Copies` and returns the function; ``shared`` is the numba type of its first argument, read from a
-    table; ``is_integer`` tells which of its fields are integers and no arrays. A leaf promises that none of the arrays overlap,
-    and calls nothing by address. Raises NotCompilable.
+    code: bytes
+    perishes: str = ""
+    holds: Any = None
+
+
+def machine_code(make: Any, shared: Any, is_integer: list[bool], is_leaf: bool) -> MachineCode:
+    """Compile the function that ``make`` returns, given `fresh.Copies`.
+
+    ``shared`` is the numba type of its first argument, read from a table; ``is_integer`` tells which of its fields are
+    integers and no arrays. A leaf promises that none of the arrays overlap, and calls nothing by address. Raises
+    NotCompilable.
     """
     from numba import types
 
@@ -43,10 +52,12 @@ def object_code(make: Any, shared: Any, is_integer: list[bool], is_leaf: bool) -
         dispatcher = copies.compiled(make(copies), error_model="numpy", fastmath={"contract", "arcp"})
         dispatcher.compile(kinds)
         text = dispatcher.inspect_llvm(kinds)
-    code = _emit(text, is_integer, is_leaf)
-    if code is None:
+    if UNRESOLVED in text:
+        raise NotCompilable(callers_of_themselves(text, copies.owners.values()), RuntimeError("it calls itself"))
+    made = _emit(text, is_integer, is_leaf)
+    if made is None:
         raise NotCompilable(makers_of_objects(text, copies.owners.values()), RuntimeError("it makes a Python object"))
-    return code
+    return made._replace(holds=copies) if made.perishes else made
 
 
 @contextlib.contextmanager
@@ -75,8 +86,8 @@ def _nothing() -> None:
     pass
 
 
-def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool] | None:
-    """Object code, and whether it lasts; None where it would need Python."""
+def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> MachineCode | None:
+    """None where it would need Python."""
     native = next(
         function.name
         for function in llvm.parse_assembly(text).functions
@@ -103,8 +114,11 @@ def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool
     needed = [function.name for function in module.functions if function.is_declaration]
     if any(_PYTHON.match(name) for name in needed):
         return None
-    lasts = all(_LIBRARY.fullmatch(name) for name in needed) and not _ADDRESS.search(str(module))
-    return machine.emit_object(module), lasts
+    strange = ", ".join(name for name in needed if not _LIBRARY.fullmatch(name))
+    perishes = f"it calls {strange}, which only numba knows" if strange else ""
+    if _ADDRESS.search(str(module)):
+        perishes = "it holds an address (of an array of more than 1 MB, or of a function of another library)"
+    return MachineCode(machine.emit_object(module), perishes)
 
 
 def _with_entry(code: str, native: str, is_integer: list[bool], is_leaf: bool) -> str:

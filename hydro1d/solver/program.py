@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -105,7 +106,7 @@ class Program:
             self._passes.append(node_pass.kick_nodes)
             return step.march
         addresses = [maker.address() for maker in makers]
-        nodes = build.Request("nodes", lambda _copies: node_pass.kick_nodes, reach.digest(node_pass.kick_nodes))
+        nodes = build.Request("nodes", lambda _copies: node_pass.kick_nodes, lambda: reach.digest(node_pass.kick_nodes))
         addresses.append(build.address(nodes, SHARED))
         self._table = np.array([0, *addresses], dtype=np.int64)
         return build.function(march_address())
@@ -201,15 +202,19 @@ class _Maker:
 
     def address(self) -> int:
         """The address of the pass as machine code. Raises DeckError for code of a user's that cannot be compiled."""
-        name = f"{self.factory.__name__} {self.kind.__module__}.{self.kind.__qualname__}"
+        name, owner = f"{self.factory.__name__} {self.kind.__module__}.{self.kind.__qualname__}", self.kind.__qualname__
         try:
-            try:
-                content = f"{_shape(self.kind, self.members)} {self.arguments} {reach.digest(self.factory)}"
-            except reach.Unreachable:
-                content = None
-            return build.address(build.Request(name, self._make, content), SHARED)
+            return build.address(build.Request(name, self._make, self._content, owner=owner), SHARED)
         except NotCompilable as refused:
             raise explanation(self.kind, refused.failures) or refused from refused.__cause__
+
+    def _content(self) -> str:
+        """All that the machine code depends on: the members, and the code of the pass with the methods that it may call."""
+        methods: dict[str, list[FunctionType]] = {}
+        for kind in records.kinds(self.kind, self.members):
+            for key, method in records.methods(kind).items():
+                methods.setdefault(key, []).append(method)
+        return f"{_shape(self.members)} {self.arguments} {reach.digest(self.factory, methods=methods)}"
 
     def _make(self, copies: Any) -> Any:
         from hydro1d.jit import lowering
@@ -241,19 +246,19 @@ def _end(boundary: Boundary, members: dict[str, Any]) -> _Maker:
     return _Maker(ends.end_pass, type(boundary), members, (len(type(boundary).state_variables) * (0.0,),))
 
 
-def _shape(kind: type[Component], members: dict[str, Any]) -> str:
-    """What the machine code depends on of a component: its code and the kinds, not the values, of its members."""
+def _shape(members: dict[str, Any]) -> str:
+    """The kinds, not the values, of a component's members."""
     kinds = []
     for name, value in members.items():
         if isinstance(value, tuple):
-            inner = records.ROW if value[0] is records.ROW else _shape(type(value[0]), value[1])
+            inner = records.ROW if value[0] is records.ROW else _shape(value[1])
         else:
             inner = type(value).__name__
         kinds.append(f"{name}:{inner}")
-    return f"{build.fingerprint(kind)}({', '.join(kinds)})"
+    return f"({', '.join(kinds)})"
 
 
 def march_address() -> int:
     """Address of the time loop, which is the same for all columns."""
-    request = build.Request("march", lambda _copies: step.march, reach.digest(step.march), is_leaf=False)
+    request = build.Request("march", lambda _copies: step.march, lambda: reach.digest(step.march), is_leaf=False)
     return build.address(request, SHARED)

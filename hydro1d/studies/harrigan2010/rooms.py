@@ -146,7 +146,7 @@ def _marching() -> Callable[[Masses], None]:
     """`march` for arrays, compiled, or as it stands for a debugger."""
     if build.interpreted():
         return lambda m: march(m._replace(told=m.told[0]))
-    request = build.Request("chain of rooms", lambda _copies: march, reach.digest(march), is_leaf=False)
+    request = build.Request("chain of rooms", lambda _copies: march, lambda: reach.digest(march), is_leaf=False)
     run = build.function(build.address(request, SHARED))
     return lambda m: run(build.table(m, SHARED.fields).ctypes.data)
 
