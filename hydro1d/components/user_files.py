@@ -59,7 +59,8 @@ def _run(path: Path) -> _Loaded:
         del sys.modules[name]
         if before is not None:
             sys.modules[name] = before
-        raise ValueError(f"{path.name} cannot be loaded: {_place(error, finder.contents)}{type(error).__name__}: {error}") from error
+        where = _place(error, finder.contents)
+        raise ValueError(f"{path.name} cannot be loaded: {where}{type(error).__name__}: {error}") from error
     return _Loaded(module, finder.contents)
 
 
@@ -85,7 +86,8 @@ class _Beside:
             return None
         for place in [str(self._folder)] if path is None else path:
             if Path(place).is_relative_to(self._folder):
-                spec = FileFinder(place, (partial(_Loader, self), [".py"])).find_spec(name)
+                loader: Any = partial(_Loader, self)
+                spec = FileFinder(place, (loader, [".py"])).find_spec(name)
                 # A mere folder gives way to a package that is installed, as it does in Python.
                 if spec is not None and (spec.loader is not None or PathFinder.find_spec(name, path) is None):
                     self.names.append(name)
@@ -100,8 +102,9 @@ class _Beside:
 
     def hidden(self) -> list[str]:
         """Names of modules that Python has already, and that the folder has too."""
-        own = {entry.stem for entry in self._folder.iterdir() if entry.suffix == ".py" or (entry / "__init__.py").is_file()}
-        return [name for name in sys.modules if name.split(".")[0] in own - _TAKEN]
+        files = [*self._folder.glob("*.py"), *(found.parent for found in self._folder.glob("*/__init__.py"))]
+        own = {file.stem for file in files} - _TAKEN
+        return [name for name in sys.modules if name.split(".")[0] in own]
 
 
 class _Loader:
@@ -122,11 +125,11 @@ class _Loader:
 def _found_by(finder: _Beside) -> Iterator[None]:
     """Let Python look beside a file first, and forget afterwards what it has found there."""
     hidden = {name: sys.modules.pop(name) for name in finder.hidden()}
-    sys.meta_path.insert(0, finder)  # type: ignore[arg-type]
+    sys.meta_path.insert(0, finder)
     try:
         yield
     finally:
-        sys.meta_path.remove(finder)  # type: ignore[arg-type]
+        sys.meta_path.remove(finder)
         for name in finder.names:
             sys.modules.pop(name, None)
         sys.modules.update(hidden)

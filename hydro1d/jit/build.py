@@ -134,9 +134,12 @@ def announcing(listener: Callable[[str], None]) -> Iterator[None]:
         _listeners.remove(listener)
 
 
-def function(where: int) -> Callable[[int], None]:
-    """A Python callable for a compiled function that takes the table of arguments alone; it releases the GIL."""
-    return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(where)
+def function(where: int) -> Callable[[int], int]:
+    """A Python callable for a compiled function that takes the table of arguments alone; it releases the GIL.
+
+    It answers with 1 where an exception was raised, which ends it at once, else with 0.
+    """
+    return ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)(where)
 
 
 def table(values: Any, fields: Mapping[str, Any]) -> np.ndarray:
@@ -186,7 +189,7 @@ def _loaded(made: compile.MachineCode) -> int:
     return engine.get_function_address("kernel")
 
 
-def call_pass(where: int, arguments: np.ndarray, integers: tuple[int, ...]) -> None:
-    """Call one compiled pass with its integers."""
+def call_pass(where: int, arguments: np.ndarray, integers: tuple[int, ...]) -> int:
+    """Call one compiled pass with its integers; the answer is that of `function`."""
     kinds = (ctypes.c_void_p, *(ctypes.c_int64,) * len(integers))
-    ctypes.CFUNCTYPE(None, *kinds)(where)(arguments.ctypes.data, *integers)
+    return ctypes.CFUNCTYPE(ctypes.c_int32, *kinds)(where)(arguments.ctypes.data, *integers)

@@ -144,13 +144,13 @@ def _leaf(native: str, is_integer: list[bool]) -> str:
     writes = [f"  %c{k} = {place.format('%copy', k)}\n  store {kind} %a{k}, ptr %c{k}" for k, kind in enumerate(kinds)]
     passed = ", ".join(f"{kind} %a{k}" for k, kind in enumerate(kinds))
     return "\n".join([
-        f"define internal void @body({passed.replace('ptr ', 'ptr noalias ')}, {own}) {{",
+        f"define internal i32 @body({passed.replace('ptr ', 'ptr noalias ')}, {own}) {{",
         f"  %copy = alloca [{len(kinds)} x i64]\n  %result = alloca ptr\n  %error = alloca ptr",
         *writes,
-        f"  %status = call i32 @{native}(ptr %result, ptr %error, ptr %copy, {own})\n  ret void\n}}",
-        f"define void @kernel(ptr %table, {own}) {{",
+        f"  %status = call i32 @{native}(ptr %result, ptr %error, ptr %copy, {own})\n  ret i32 %status\n}}",
+        f"define i32 @kernel(ptr %table, {own}) {{",
         *reads,
-        f"  call void @body({passed}, {own})\n  ret void\n}}\n",
+        f"  %status = call i32 @body({passed}, {own})\n{_RAISED}}}\n",
     ])  # fmt: skip
 
 
@@ -160,14 +160,22 @@ def _caller(native: str, _is_integer: list[bool]) -> str:
     flush, restore, declarations = _FLUSH if flushes else ("", "", "")
     return f"""
 {declarations}
-define void @kernel(ptr noalias readonly %table) {{
+define i32 @kernel(ptr noalias readonly %table) {{
   %result = alloca ptr
   %error = alloca ptr
 {flush}
   %status = call i32 @{native}(ptr %result, ptr %error, ptr %table)
 {restore}
-  ret void
-}}
+{_RAISED}}}
+"""
+
+
+# 1 where an exception was raised: numba's functions answer with 0, or -2 for None, where none was.
+_RAISED = """  %something = icmp ne i32 %status, 0
+  %other = icmp ne i32 %status, -2
+  %both = and i1 %something, %other
+  %raised = zext i1 %both to i32
+  ret i32 %raised
 """
 
 

@@ -135,8 +135,10 @@ def _call(_typing: Any, passes: Any, which: Any, integers: Any) -> Any:
         # The place before the first pass holds the address of the arguments that all of them share.
         table = builder.load(builder.gep(passes, [ir.Constant(_INTEGER, -1)]))
         address = builder.load(builder.gep(passes, [which]))
-        kind = ir.FunctionType(ir.VoidType(), [_INTEGER] * (1 + len(values)))
-        builder.call(builder.inttoptr(address, kind.as_pointer()), [table, *values])
+        kind = ir.FunctionType(ir.IntType(32), [_INTEGER] * (1 + len(values)))
+        raised = builder.call(builder.inttoptr(address, kind.as_pointer()), [table, *values])
+        with cgutils.if_unlikely(builder, cgutils.is_not_null(builder, raised)):
+            context.call_conv.return_user_exc(builder, RuntimeError)  # goes up through all callers
         return context.get_dummy_value()
 
     return types.void(passes, which, integers), generate

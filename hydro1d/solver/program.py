@@ -10,24 +10,35 @@ import numpy as np
 
 from hydro1d.boundaries.base import Boundary
 from hydro1d.components.parameters import Component
+from hydro1d.errors import Hydro1dError
 from hydro1d.jit import build, reach, records
 from hydro1d.jit.memory import placed
 from hydro1d.jit.primitives import at
 from hydro1d.jit.refusals import NotCompilable, explanation
 from hydro1d.laws.base import LARGEST_STRAIN
 from hydro1d.scheme import ends, foam_pass, history, node_pass, profiles, step, zone_pass
-from hydro1d.scheme.records import CALL, COUNTS, RECORDS, SINGLE, Grid
+from hydro1d.scheme.records import CALL, COLLAPSED, COUNTS, RECORDS, SINGLE, Grid
 from hydro1d.solver.column import Column, LayerBlock
 from hydro1d.solver.state import State
 
 _BYTES = ("parameters",)
 _ADDRESSES = ("passes",)
+RAISED = COLLAPSED + 1  # the status of a call in which a law or a boundary raised an exception
 FIELDS: dict[str, Any] = {
     name: RECORDS.get(name)
     or (int if name in COUNTS else "u1" if name in _BYTES else "i8" if name in _ADDRESSES else "f8")
     for name in Grid._fields
 }
 SHARED = build.Shared("Grid", FIELDS)
+
+
+class PassRaised(Hydro1dError):
+    """A law or a boundary raised an exception; compiled code does not tell which."""
+
+    exit_code = 3
+
+    def __init__(self) -> None:
+        super().__init__("a law or a boundary raised an exception before the first step")
 
 
 class Program:
@@ -51,7 +62,7 @@ class Program:
         blocks = [records.pack(members) for members in self._members]
         starts = np.cumsum([0, *(len(block) for block in blocks)])
         self.own = self._arrays(np.concatenate(blocks), starts)
-        self._march: Callable[[Any], None] = self._bound()
+        self._march: Callable[[Any], int | None] = self._bound()
 
     def _arrays(self, parameters: np.ndarray, starts: np.ndarray) -> dict[str, Any]:
         """What a column needs beside its state, by the names of `Grid`."""
@@ -93,7 +104,7 @@ class Program:
             "probe_count": len(column.probes),
         }
 
-    def _bound(self) -> Callable[[Any], None]:
+    def _bound(self) -> Callable[[Any], int | None]:
         """The time loop; its table of passes, by number: the zones of each layer, both ends, the nodes."""
         layers = zip(self.column.layers, self._members, strict=False)
         makers = [_zones(block, members) for block, members in layers]
@@ -123,7 +134,11 @@ class Program:
         self._profiles = np.empty((count, self.profile_length))
         order.steps, order.history_every, order.row_at_stop = steps, self.column.history_every, row_at_stop
         order.row_capacity, order.stops, order.enough_stops = self.row_capacity, len(stops), enough
-        self._run(state, stops=np.array(stops, dtype=float).reshape(-1), profiles=self._profiles.reshape(-1))
+        try:
+            self._run(state, stops=np.array(stops, dtype=float).reshape(-1), profiles=self._profiles.reshape(-1))
+        except PassRaised:
+            state.clock[0].cycle += 1  # the cycle that breaks down counts, as it does where a step answers so
+            order.status, order.rows, order.profiles, order.is_fresh = RAISED, 0, 0, True
         return int(order.status)
 
     def profiles(self) -> np.ndarray:
@@ -156,7 +171,10 @@ class Program:
         """The time loop, or one pass by number, on the grid of a state."""
         if build.interpreted():
             grid = _plain_grid({**self.own, **state.arrays(), "stops": None, "profiles": None, **arrays}, self._passes)
-            self._march(grid) if which is None else grid.passes[which[0]](*which[1:])
+            try:
+                self._march(grid) if which is None else grid.passes[which[0]](*which[1:])
+            except Exception as error:
+                raise PassRaised from error
             return
         if self._known is None or self._known[0] is not state:
             values = {**self.own, **state.arrays(), "stops": self._table, "profiles": self._table}
@@ -167,9 +185,11 @@ class Program:
         for name, array in arrays.items():
             table[Grid._fields.index(name)] = array.ctypes.data
         if which is None:
-            self._march(table.ctypes.data)
+            raised = self._march(table.ctypes.data)
         else:
-            build.call_pass(int(self._table[1 + which[0]]), table, which[1:])
+            raised = build.call_pass(int(self._table[1 + which[0]]), table, which[1:])
+        if raised:
+            raise PassRaised
 
 
 _REMEMBERED = ("curve", "tangents", "stiffnesses", "speeds")

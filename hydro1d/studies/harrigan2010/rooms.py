@@ -142,7 +142,7 @@ def answers(chain: Chain, pressure: float, shares: np.ndarray) -> tuple[np.ndarr
 
 
 @functools.cache
-def _marching() -> Callable[[Masses], None]:
+def _marching() -> Callable[[Masses], object]:
     """`march` for arrays, compiled, or as it stands for a debugger."""
     if build.interpreted():
         return lambda m: march(m._replace(told=m.told[0]))
