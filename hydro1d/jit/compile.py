@@ -18,7 +18,7 @@ INTEGERS = 4  # of a pass, behind the arguments that all share
 # What machine code may call: the mathematics of the C library.
 _LIBRARY = re.compile(
     r"(a?(sin|cos|tan)h?|atan2|exp|expm1|exp2|log|log1p|log2|log10|pow|sqrt|cbrt|hypot|fmod|floor|ceil|trunc|round|rint"
-    r"|erf|erfc|ldexp|frexp|copysign|fabs|fmin|fmax|fma|memset|memcpy|memmove|llvm\..*)f?"
+    r"|erf|erfc|lgamma|copysign|fabs|fmin|fmax|fma|memset|memcpy|memmove|llvm\..*)f?"
 )
 _PYTHON = re.compile(r"_?Py|numba_(gil|unpickle|do_raise)|NRT_")
 _ADDRESS = re.compile(r"numba\.dynamic\.globals|inttoptr \(i64 \d+ to")  # of this process
