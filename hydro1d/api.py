@@ -114,9 +114,17 @@ def _plan(deck: Deck) -> CheckpointPlan:
 
 
 def _attributes(deck: Deck) -> dict[str, Any]:
-    """Root attributes: the peak of the applied pressure and the hash of every law's code."""
-    hashes = {f"law_hash_{layer.material}": fingerprint(type(layer.law)) for layer in deck.layers}
+    """Root attributes: the peak of the applied pressure, and the hashes of the code of laws and boundaries."""
+    laws, ends = _code_hashes(deck)
+    hashes = {f"law_hash_{name}": value for name, value in laws.items()}
+    hashes |= {f"boundary_hash_{side}": value for side, value in ends.items()}
     return {**hashes, "peak_applied_pressure": max(deck.left.peak(), deck.right.peak())}
+
+
+def _code_hashes(deck: Deck) -> tuple[dict[str, str], dict[str, str]]:
+    """Hashes of all that the code of laws, by material, and of boundaries, by side, can reach."""
+    laws = {layer.material: fingerprint(layer.law) for layer in deck.layers}
+    return laws, {"left": fingerprint(deck.left), "right": fingerprint(deck.right)}
 
 
 def _closing(column: Column, outcome: Outcome) -> dict[str, Any]:
@@ -131,8 +139,8 @@ def _read_restart(deck: Deck, column: Column, program: Program, path: Path, forc
     from hydro1d.store import read_checkpoint, verify_checkpoint
 
     checkpoint = read_checkpoint(path)
-    hashes = {layer.material: fingerprint(type(layer.law)) for layer in deck.layers}
-    verify_checkpoint(checkpoint, deck.resolved(), hashes, force)
+    laws, ends = _code_hashes(deck)
+    verify_checkpoint(checkpoint, deck.resolved(), laws, force, ends)
     return checkpoint, _state_of(column, program, checkpoint.arrays, path)
 
 

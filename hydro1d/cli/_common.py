@@ -117,6 +117,15 @@ def count(number: int, noun: str) -> str:
 
 
 @contextmanager
+def notes_of_the_compiler(quiet: bool) -> Iterator[None]:
+    """Print what a user should know about machine code that cannot be kept."""
+    from hydro1d.jit.build import noting
+
+    with noting(lambda text: None if quiet else print(f"note: {text}", flush=True)):
+        yield
+
+
+@contextmanager
 def progress_bar(quiet: bool) -> Iterator[Callable[[float], None] | None]:
     """A bar on standard error for a share that grows from 0 to 1; None where nobody watches."""
     if quiet or not sys.stderr.isatty():

@@ -47,7 +47,8 @@ def run(args: argparse.Namespace) -> None:
     told = not args.quiet and str(args.log_json) != "-"
     for note in deck.notes if told else ():
         print(f"note: {note}", flush=True)  # before the calculation, which may be long and for nothing
-    result = (_calculate if args.log_json is None else _logged)(args, deck, output)
+    with _common.notes_of_the_compiler(quiet=not told):
+        result = (_calculate if args.log_json is None else _logged)(args, deck, output)
     if told:
         from hydro1d.analysis.openings import MAX_VALUES, find_openings
 

@@ -48,7 +48,11 @@ def run(args: argparse.Namespace) -> int:
     check_text_target(table_file)
     _common.refuse_other_kind(target, table=True)
     journal = target.with_suffix(".journal")
-    with _common.progress_bar(args.quiet) as progress, executor_at(args.scheduler) as executor:
+    with (
+        _common.progress_bar(args.quiet) as progress,
+        _common.notes_of_the_compiler(args.quiet),
+        executor_at(args.scheduler) as executor,
+    ):
         table = run_sweep(
             sweep, executor=executor, threads=args.threads, journal=journal, fresh=args.fresh, progress=progress
         )  # fmt: skip

@@ -9,13 +9,12 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
-import sys
-import zlib
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
 from hydro1d.components.parameters import Component
+from hydro1d.components.user_files import load_module
 
 _KINDS = {
     "law": ("hydro1d.laws", "hydro1d.laws.base:Law"),
@@ -102,7 +101,7 @@ def _from_file(kind: str, spec: str, folder: Path) -> type[Component]:
     path = (folder / file).resolve()
     if not path.is_file():
         raise ValueError(f"the file {path} does not exist")
-    module = _load_module(path)
+    module = load_module(path)
     if not name:
         raise ValueError(f"{spec!r} names no class; write {file}:ClassName")
     found = getattr(module, name, None)
@@ -117,25 +116,3 @@ def _checked(kind: str, found: object, spec: str) -> type[Component]:
     if not (isinstance(found, type) and issubclass(found, base)):
         raise ValueError(f"{spec} is not a subclass of hydro1d.{base.__name__}")
     return found
-
-
-def _load_module(path: Path) -> ModuleType:
-    """Run a user's file once per content, under a name that is stable from run to run."""
-    name = "hydro1d_user_" + path.stem + "_" + format(_fingerprint(path), "x")
-    if name in sys.modules:
-        return sys.modules[name]
-    module = ModuleType(name)
-    module.__file__ = str(path)
-    sys.modules[name] = module
-    try:
-        # Not through importlib: its bytecode cache misses an edit within the clock's second and litters the user's folder.
-        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
-    except Exception as error:
-        del sys.modules[name]
-        raise ValueError(f"{path.name} cannot be loaded: {type(error).__name__}: {error}") from error
-    return module
-
-
-def _fingerprint(path: Path) -> int:
-    """A number of the file's place and content, so that an edited law takes effect within one process."""
-    return zlib.crc32(path.read_bytes(), zlib.crc32(str(path).encode()))

@@ -1,7 +1,8 @@
-"""Notes on units that may have been forgotten: plain numbers are SI, and some are implausible as such.
+"""Notes on a deck: laws written for version 0.1, and units that may have been forgotten.
 
-A number with a unit is taken at its word. A plain one is SI, and 0.8 for a stress of 0.8 MPa is easily written: the deck runs,
-and the result is wrong by orders of magnitude. The bounds below lie far outside the values of foams, metals and blasts.
+Plain numbers are SI, and some are implausible as such. A number with a unit is taken at its word. A plain one is SI, and 0.8
+for a stress of 0.8 MPa is easily written: the deck runs, and the result is wrong by orders of magnitude. The bounds below lie
+far outside the values of foams, metals and blasts.
 
 Dimensionless decks, in which every number is of the order of one, are no mistake. Their densities tell them apart: only a deck
 with a density of at least `_LIGHTEST`, or with a solid too strong for its density, is examined.
@@ -18,6 +19,7 @@ from pydantic import BaseModel
 
 from hydro1d.components import tables
 from hydro1d.deck.messages import path_text
+from hydro1d.laws.base import answer_by_point
 
 if TYPE_CHECKING:
     from hydro1d.deck.model import Deck
@@ -64,7 +66,23 @@ class _Number(NamedTuple):
 
 
 def notes_on(deck: Deck, data: Mapping[str, Any], folder: Path) -> tuple[str, ...]:
-    """A sentence about the numbers of a deck that lack a unit, it seems; `data` are its values as they were written."""
+    """What a user should look at again; `data` are the deck's values as they were written."""
+    return (*_former_laws(deck), *_units_that_lack(deck, data, folder))
+
+
+def _former_laws(deck: Deck) -> tuple[str, ...]:
+    """A sentence about the laws that answer as version 0.1 asked them to."""
+    kinds = [type(layer.law) for layer in deck.layers]
+    former = dict.fromkeys(kind.__name__ for kind in kinds if vars(kind).get("respond") is answer_by_point)
+    if not former:
+        return ()
+    return (
+        f"{', '.join(former)}: point, as version 0.1 asked it, runs as it did; respond can say more (docs/own-law.md)",
+    )
+
+
+def _units_that_lack(deck: Deck, data: Mapping[str, Any], folder: Path) -> tuple[str, ...]:
+    """A sentence about the numbers that lack a unit, it seems."""
     laws = {layer.material: layer.law for layer in deck.layers}
     if not any(law.density >= _LIGHTEST or _is_too_strong(law) for law in laws.values()):
         return ()

@@ -15,7 +15,6 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from importlib import metadata
 from pathlib import Path
-from types import FunctionType
 from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
@@ -25,10 +24,14 @@ from hydro1d.components.parameters import Component
 from hydro1d.jit import cache, compile, reach
 from hydro1d.jit.versions import require_supported_compiler
 
+UNKNOWN = "unknown: "
+_LONGEST = 300  # characters of what is unknown
 _lock = threading.Lock()
-_engines: list[Any] = []  # keeps the machine code alive
+_engines: list[Any] = []  # keeps the machine code alive, and what it holds addresses of
 _addresses: dict[str, int] = {}
 _listeners: list[Callable[[str], None]] = []
+_readers: list[Callable[[str], None]] = []
+_noted: set[str] = set()
 
 
 class Shared(NamedTuple):
@@ -40,12 +43,14 @@ class Shared(NamedTuple):
 
 class Request(NamedTuple):
     """What to compile: a name for messages; ``make``, which takes `fresh.Copies` and returns the function; ``content``,
-    which names everything that the machine code depends on, or None where that cannot be named; whether it is a leaf."""
+    which answers with all that the machine code depends on, or raises `reach.Unreachable`; whether it is a leaf; whose code
+    it is, for notes."""
 
     name: str
     make: Callable[[Any], Any]
-    content: str | None
+    content: Callable[[], str]
     is_leaf: bool = True
+    owner: str = "hydro1d"
 
 
 def interpreted() -> bool:
@@ -54,24 +59,39 @@ def interpreted() -> bool:
 
 
 def address(request: Request, shared: Shared) -> int:
-    """Address of the compiled function. Raises NotCompilable."""
+    """Address of the compiled function. Raises NotCompilable, `reach.KeepsState`."""
+    try:
+        content = request.content()
+    except reach.Unreachable as error:
+        with _lock:
+            _note_perishable(request, f"it depends on {error}, which has no lasting name")
+            return _loaded(_compiled(request, shared))
     fields = " ".join(f"{name}:{kind}" for name, kind in shared.fields.items())
-    parts = [request.name, str(request.content), fields, str(request.is_leaf), _environment()]
+    parts = [request.name, content, fields, str(request.is_leaf), _environment()]
     key = hashlib.sha256("\n".join(parts).encode()).hexdigest()
     with _lock:
-        if request.content is None:
-            return _load(_compiled(request, shared)[0])
         if key not in _addresses:
             code = cache.read(key)
-            if code is None:
-                code, lasts = _compiled(request, shared)
-                if lasts:
-                    cache.write(key, code)
-            _addresses[key] = _load(code)
+            if code is not None:
+                _addresses[key] = _loaded(compile.MachineCode(code))
+            else:
+                _addresses[key] = _loaded(_kept(key, request, shared))
         return _addresses[key]
 
 
-def _compiled(request: Request, shared: Shared) -> tuple[bytes, bool]:
+def _kept(key: str, request: Request, shared: Shared) -> compile.MachineCode:
+    """New machine code, which goes into the cache if it lasts."""
+    made = _compiled(request, shared)
+    if made.perishes:
+        _note_perishable(request, made.perishes)
+        return made
+    problem = cache.write(key, made.code)
+    if problem:
+        _note(f"machine code cannot be kept and is compiled anew in every run: {problem}")
+    return made
+
+
+def _compiled(request: Request, shared: Shared) -> compile.MachineCode:
     for listener in _listeners:
         listener(request.name)
     require_supported_compiler()
@@ -79,7 +99,29 @@ def _compiled(request: Request, shared: Shared) -> tuple[bytes, bool]:
 
     kind = shared_type(shared.name, shared.fields)
     is_integer = [field is int for field in shared.fields.values()]
-    return compile.object_code(request.make, kind, is_integer, request.is_leaf)
+    return compile.machine_code(request.make, kind, is_integer, request.is_leaf)
+
+
+def _note_perishable(request: Request, why: str) -> None:
+    _note(f"{request.owner} is compiled anew in every run, some seconds each: {why}")
+
+
+def _note(text: str) -> None:
+    """Tell who listens, each once."""
+    if text not in _noted:
+        for reader in _readers:
+            reader(text)
+            _noted.add(text)
+
+
+@contextlib.contextmanager
+def noting(reader: Callable[[str], None]) -> Iterator[None]:
+    """Tell ``reader`` what a user should know about machine code that cannot be kept, each sentence once."""
+    _readers.append(reader)
+    try:
+        yield
+    finally:
+        _readers.remove(reader)
 
 
 @contextlib.contextmanager
@@ -92,9 +134,12 @@ def announcing(listener: Callable[[str], None]) -> Iterator[None]:
         _listeners.remove(listener)
 
 
-def function(where: int) -> Callable[[int], None]:
-    """A Python callable for a compiled function that takes the table of arguments alone; it releases the GIL."""
-    return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(where)
+def function(where: int) -> Callable[[int], int]:
+    """A Python callable for a compiled function that takes the table of arguments alone; it releases the GIL.
+
+    It answers with 1 where an exception was raised, which ends it at once, else with 0.
+    """
+    return ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)(where)
 
 
 def table(values: Any, fields: Mapping[str, Any]) -> np.ndarray:
@@ -105,21 +150,18 @@ def table(values: Any, fields: Mapping[str, Any]) -> np.ndarray:
     )
 
 
-def fingerprint(component: type[Component]) -> str:
-    """A digest of all that the code of a component can reach: its methods, and what these call and use.
+def fingerprint(component: Component) -> str:
+    """A digest of all that the code of a component can reach, compiled or not, and of the components that it holds.
 
-    Raises `reach.Unreachable` where something has no lasting text, `reach.KeepsState` where it writes a global.
+    Where something has no lasting text it is `UNKNOWN` and what that is.
     """
-    functions: list[FunctionType] = []
-    names: list[str] = []
-    for base in component.__mro__:
-        if issubclass(base, Component) and base is not Component:
-            for key, item in sorted(vars(base).items(), key=lambda pair: pair[0]):
-                item = getattr(item, "func", item)
-                if isinstance(item, FunctionType) and not key.startswith("__"):
-                    names.append(f"{base.__qualname__}.{key}")
-                    functions.append(item)
-    return hashlib.sha256("\n".join([*names, reach.digest(*functions)]).encode()).hexdigest()
+    parts = [component, *(part for part in vars(component).values() if isinstance(part, Component))]
+    try:
+        return reach.digest(*(type(part) for part in parts))
+    except reach.Unreachable as error:
+        return f"{UNKNOWN}{error}"[:_LONGEST]
+    except reach.KeepsState as error:  # in plain Python; where it would be compiled it is refused
+        return f"{UNKNOWN}{error.what}"[:_LONGEST]
 
 
 @functools.cache
@@ -127,19 +169,27 @@ def _environment() -> str:
     """Everything about this machine and installation that machine code depends on."""
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()
-    versions = " ".join(f"{name} {metadata.version(name)}" for name in ("numba", "llvmlite", "numpy"))
+    versions = " ".join(f"{name} {_version(name)}" for name in ("numba", "llvmlite", "numpy"))
     return f"{digest} {versions} {sys.version} {llvm.get_host_cpu_name()} {compile.features()}"
 
 
-def _load(code: bytes) -> int:
+def _version(library: str) -> str:
+    """Of what is installed; what is not is missed only by who has to compile."""
+    try:
+        return metadata.version(library)
+    except metadata.PackageNotFoundError:
+        return "none"
+
+
+def _loaded(made: compile.MachineCode) -> int:
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), compile.target_machine())
-    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.add_object_file(llvm.ObjectFileRef.from_data(made.code))
     engine.finalize_object()
-    _engines.append(engine)
+    _engines.append((engine, made.holds))
     return engine.get_function_address("kernel")
 
 
-def call_pass(where: int, arguments: np.ndarray, integers: tuple[int, ...]) -> None:
-    """Call one compiled pass with its integers."""
+def call_pass(where: int, arguments: np.ndarray, integers: tuple[int, ...]) -> int:
+    """Call one compiled pass with its integers; the answer is that of `function`."""
     kinds = (ctypes.c_void_p, *(ctypes.c_int64,) * len(integers))
-    ctypes.CFUNCTYPE(None, *kinds)(where)(arguments.ctypes.data, *integers)
+    return ctypes.CFUNCTYPE(ctypes.c_int32, *kinds)(where)(arguments.ctypes.data, *integers)

@@ -32,8 +32,8 @@ def read(key: str) -> bytes | None:
     return code if code and _checksum(key, code) == digest else None
 
 
-def write(key: str, code: bytes) -> None:
-    """Keep the object code for later runs; a cache that cannot be written costs time, not the run.
+def write(key: str, code: bytes) -> str:
+    """Keep the object code for later runs. Returns what prevents it, else "": that costs time, not the run.
 
     Written beside its place and renamed: another process sees the whole file or none.
     """
@@ -44,10 +44,12 @@ def write(key: str, code: bytes) -> None:
             temporary = Path(file.name)
             file.write(_checksum(key, code) + code)
         temporary.replace(folder() / f"{key}.o")
-    except OSError:
+    except OSError as error:
         if temporary is not None:
             with contextlib.suppress(OSError):
                 temporary.unlink()
+        return f"{folder()}: {error.strerror or error}"
+    return ""
 
 
 def _checksum(key: str, code: bytes) -> bytes:

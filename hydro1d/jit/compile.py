@@ -8,30 +8,39 @@ import gc
 import re
 import threading
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
 
-from hydro1d.jit.refusals import NotCompilable, makers_of_objects, noticed
+from hydro1d.jit.refusals import UNRESOLVED, NotCompilable, callers_of_themselves, makers_of_objects, noticed
 
 INTEGERS = 4  # of a pass, behind the arguments that all share
 # What machine code may call: the mathematics of the C library.
 _LIBRARY = re.compile(
     r"(a?(sin|cos|tan)h?|atan2|exp|expm1|exp2|log|log1p|log2|log10|pow|sqrt|cbrt|hypot|fmod|floor|ceil|trunc|round|rint"
-    r"|erf|erfc|ldexp|frexp|copysign|fabs|fmin|fmax|fma|memset|memcpy|memmove|llvm\..*)f?"
+    r"|erf|erfc|lgamma|copysign|fabs|fmin|fmax|fma|memset|memcpy|memmove|llvm\..*)f?"
 )
 _PYTHON = re.compile(r"_?Py|numba_(gil|unpickle|do_raise)|NRT_")
-_ADDRESS = re.compile(r"inttoptr \(i64 \d+ to|i64 \d{12,} to ptr")
+_ADDRESS = re.compile(r"numba\.dynamic\.globals|inttoptr \(i64 \d+ to")  # of this process
 _target: Any = None
 _compiling = threading.RLock()
 
 
-def object_code(make: Any, shared: Any, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool]:
-    """Object code with one public symbol, ``kernel``, and whether it would run in another process too.
+class MachineCode(NamedTuple):
+    """Object code with one public symbol, ``kernel``; why it would not run in another process, else ""; and what must
+    stay alive as long as it runs."""
 
-    ``make`` takes `fresh.Copies` and returns the function; ``shared`` is the numba type of its first argument, read from a
-    table; ``is_integer`` tells which of its fields are integers and no arrays. A leaf promises that none of the arrays overlap,
-    and calls nothing by address. Raises NotCompilable.
+    code: bytes
+    perishes: str = ""
+    holds: Any = None
+
+
+def machine_code(make: Any, shared: Any, is_integer: list[bool], is_leaf: bool) -> MachineCode:
+    """Compile the function that ``make`` returns, given `fresh.Copies`.
+
+    ``shared`` is the numba type of its first argument, read from a table; ``is_integer`` tells which of its fields are
+    integers and no arrays. A leaf promises that none of the arrays overlap, and calls nothing by address. Raises
+    NotCompilable.
     """
     from numba import types
 
@@ -43,10 +52,12 @@ def object_code(make: Any, shared: Any, is_integer: list[bool], is_leaf: bool) -
         dispatcher = copies.compiled(make(copies), error_model="numpy", fastmath={"contract", "arcp"})
         dispatcher.compile(kinds)
         text = dispatcher.inspect_llvm(kinds)
-    code = _emit(text, is_integer, is_leaf)
-    if code is None:
+    if UNRESOLVED in text:
+        raise NotCompilable(callers_of_themselves(text, copies.owners.values()), RuntimeError("it calls itself"))
+    made = _emit(text, is_integer, is_leaf)
+    if made is None:
         raise NotCompilable(makers_of_objects(text, copies.owners.values()), RuntimeError("it makes a Python object"))
-    return code
+    return made._replace(holds=copies) if made.perishes else made
 
 
 @contextlib.contextmanager
@@ -75,8 +86,8 @@ def _nothing() -> None:
     pass
 
 
-def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool] | None:
-    """Object code, and whether it lasts; None where it would need Python."""
+def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> MachineCode | None:
+    """None where it would need Python."""
     native = next(
         function.name
         for function in llvm.parse_assembly(text).functions
@@ -103,8 +114,11 @@ def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> tuple[bytes, bool
     needed = [function.name for function in module.functions if function.is_declaration]
     if any(_PYTHON.match(name) for name in needed):
         return None
-    lasts = all(_LIBRARY.fullmatch(name) for name in needed) and not _ADDRESS.search(str(module))
-    return machine.emit_object(module), lasts
+    strange = ", ".join(name for name in needed if not _LIBRARY.fullmatch(name))
+    perishes = f"it calls {strange}, which only numba knows" if strange else ""
+    if _ADDRESS.search(str(module)):
+        perishes = "it holds an address (of an array of more than 1 MB, or of a function of another library)"
+    return MachineCode(machine.emit_object(module), perishes)
 
 
 def _with_entry(code: str, native: str, is_integer: list[bool], is_leaf: bool) -> str:
@@ -130,13 +144,13 @@ def _leaf(native: str, is_integer: list[bool]) -> str:
     writes = [f"  %c{k} = {place.format('%copy', k)}\n  store {kind} %a{k}, ptr %c{k}" for k, kind in enumerate(kinds)]
     passed = ", ".join(f"{kind} %a{k}" for k, kind in enumerate(kinds))
     return "\n".join([
-        f"define internal void @body({passed.replace('ptr ', 'ptr noalias ')}, {own}) {{",
+        f"define internal i32 @body({passed.replace('ptr ', 'ptr noalias ')}, {own}) {{",
         f"  %copy = alloca [{len(kinds)} x i64]\n  %result = alloca ptr\n  %error = alloca ptr",
         *writes,
-        f"  %status = call i32 @{native}(ptr %result, ptr %error, ptr %copy, {own})\n  ret void\n}}",
-        f"define void @kernel(ptr %table, {own}) {{",
+        f"  %status = call i32 @{native}(ptr %result, ptr %error, ptr %copy, {own})\n  ret i32 %status\n}}",
+        f"define i32 @kernel(ptr %table, {own}) {{",
         *reads,
-        f"  call void @body({passed}, {own})\n  ret void\n}}\n",
+        f"  %status = call i32 @body({passed}, {own})\n{_RAISED}}}\n",
     ])  # fmt: skip
 
 
@@ -146,14 +160,22 @@ def _caller(native: str, _is_integer: list[bool]) -> str:
     flush, restore, declarations = _FLUSH if flushes else ("", "", "")
     return f"""
 {declarations}
-define void @kernel(ptr noalias readonly %table) {{
+define i32 @kernel(ptr noalias readonly %table) {{
   %result = alloca ptr
   %error = alloca ptr
 {flush}
   %status = call i32 @{native}(ptr %result, ptr %error, ptr %table)
 {restore}
-  ret void
-}}
+{_RAISED}}}
+"""
+
+
+# 1 where an exception was raised: numba's functions answer with 0, or -2 for None, where none was.
+_RAISED = """  %something = icmp ne i32 %status, 0
+  %other = icmp ne i32 %status, -2
+  %both = and i1 %something, %other
+  %raised = zext i1 %both to i32
+  ret i32 %raised
 """
 
 

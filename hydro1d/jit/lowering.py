@@ -25,10 +25,10 @@ from numba.extending import (
     type_callable,
 )
 
-from hydro1d.components.parameters import Component, derived
+from hydro1d.components.parameters import Component
 from hydro1d.jit import primitives
 from hydro1d.jit.fresh import LEAN, Copies
-from hydro1d.jit.records import ROW, layout
+from hydro1d.jit.records import ROW, layout, methods
 
 POINTER = types.CPointer(types.float64)
 ADDRESSES = types.CPointer(types.int64)
@@ -135,8 +135,10 @@ def _call(_typing: Any, passes: Any, which: Any, integers: Any) -> Any:
         # The place before the first pass holds the address of the arguments that all of them share.
         table = builder.load(builder.gep(passes, [ir.Constant(_INTEGER, -1)]))
         address = builder.load(builder.gep(passes, [which]))
-        kind = ir.FunctionType(ir.VoidType(), [_INTEGER] * (1 + len(values)))
-        builder.call(builder.inttoptr(address, kind.as_pointer()), [table, *values])
+        kind = ir.FunctionType(ir.IntType(32), [_INTEGER] * (1 + len(values)))
+        raised = builder.call(builder.inttoptr(address, kind.as_pointer()), [table, *values])
+        with cgutils.if_unlikely(builder, cgutils.is_not_null(builder, raised)):
+            context.call_conv.return_user_exc(builder, RuntimeError)  # goes up through all callers
         return context.get_dummy_value()
 
     return types.void(passes, which, integers), generate
@@ -182,19 +184,6 @@ def _as_overload(method: FunctionType) -> Callable:
     # numba asks an overload for the same argument names as its implementation.
     choose.__signature__ = inspect.signature(method)  # type: ignore[attr-defined]
     return choose
-
-
-def methods(component: type[Component]) -> dict[str, FunctionType]:
-    """The plain methods that a component's compiled functions may call on themselves."""
-    found: dict[str, FunctionType] = {}
-    for base in reversed(component.__mro__):
-        if issubclass(base, Component) and base is not Component:
-            for key, item in vars(base).items():
-                if isinstance(item, FunctionType) and not key.startswith("__"):
-                    found[key] = item
-                elif isinstance(item, derived):
-                    found.pop(key, None)
-    return found
 
 
 def unpacker(record: types.Type, members: dict[str, Any]) -> Callable:

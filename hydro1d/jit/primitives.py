@@ -36,5 +36,8 @@ def accumulate(total: float, value: float) -> float:
 
 
 def call(passes: Sequence[Callable], which: int, *integers: int) -> None:
-    """Call pass number ``which`` with four integers; it works on what its caller works on."""
+    """Call pass number ``which`` with four integers; it works on what its caller works on.
+
+    What it raises ends its caller too.
+    """
     passes[which](*integers)

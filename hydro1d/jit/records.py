@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,25 @@ def members(components: Sequence[Component]) -> dict[str, Any]:
         elif isinstance(value, np.ndarray) and value.ndim == 1:
             found[name] = value
     return found
+
+
+def methods(component: type[Component]) -> dict[str, FunctionType]:
+    """The plain methods that a component's compiled functions may call on themselves."""
+    found: dict[str, FunctionType] = {}
+    for base in reversed(component.__mro__):
+        if issubclass(base, Component) and base is not Component:
+            for key, item in vars(base).items():
+                if isinstance(item, FunctionType) and not key.startswith("__"):
+                    found[key] = item
+                elif isinstance(item, derived):
+                    found.pop(key, None)
+    return found
+
+
+def kinds(component: type[Component], found: dict[str, Any]) -> list[type[Component]]:
+    """The classes of a component with these members, and of those that it holds."""
+    inner = [value for value in found.values() if isinstance(value, tuple) and value[0] is not ROW]
+    return [component, *(kind for part, own in inner for kind in kinds(type(part), own))]
 
 
 def _plain(value: Any) -> bool | int | float:

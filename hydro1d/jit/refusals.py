@@ -27,6 +27,7 @@ _MAY_USE = (
 _SIGNATURE = re.compile(r"^\s*>>> (.+)$", re.MULTILINE)
 _RAISED_FROM = re.compile(r"\s*Raised from .* \((\d+)\)$")
 _MAKE_OBJECTS = ("BUILD_LIST", "BUILD_SET", "BUILD_MAP", "BUILD_STRING", "FORMAT_VALUE")
+UNRESOLVED = ".numba.unresolved$"  # numba's name for a function that is still being compiled where it is called
 _LONGEST = 200  # characters of what numba said
 
 
@@ -50,7 +51,19 @@ def makers_of_objects(text: str, owners: Iterable[FunctionType]) -> list[Failure
     error = RuntimeError("it makes an object (a list, an array, a text)")
     bodies = [part.split("\n}", 1)[0] for part in re.split(r"(?m)^define ", text)[1:]]
     guilty = " ".join(body.split("\n", 1)[0] for body in bodies if re.search(r"@_?(NRT_|Py|numba_unpickle)", body))
-    return [Failure(owner, error) for owner in owners if f"{len(owner.__name__)}{owner.__name__}B" in guilty]
+    return [Failure(owner, error) for owner in owners if _symbol(owner) in guilty]
+
+
+def callers_of_themselves(text: str, owners: Iterable[FunctionType]) -> list[Failure]:
+    """Of numba's module, the functions that call themselves: numba leaves the address of such a call to its own loader."""
+    error = RuntimeError("it calls itself; a loop can do the same")
+    guilty = " ".join(re.findall(re.escape(UNRESOLVED) + r'[^"]*', text))
+    return [Failure(owner, error) for owner in owners if _symbol(owner) in guilty]
+
+
+def _symbol(function: FunctionType) -> str:
+    """What the names that numba gives to a function's code contain."""
+    return f"{len(function.__name__)}{function.__name__}B"
 
 
 @contextmanager
@@ -79,7 +92,7 @@ def noticed(copies: Any) -> Iterator[None]:
 
 def explanation(component: type[Component], failures: list[Failure]) -> DeckError | None:
     """The error for the author of a component; None where the component is hydro1d's own, whose fault it is not."""
-    home = getattr(sys.modules.get(component.__module__), "__file__", None) or "<unknown>"
+    home = _home(component)
     if _is_ours(home):
         return None
     own = next((failure for failure in failures if not _is_ours(failure.function.__code__.co_filename)), None)
@@ -91,6 +104,12 @@ def explanation(component: type[Component], failures: list[Failure]) -> DeckErro
     place = f"{file}, line {line}" if line else file
     text = f"{place}: {own.function.__qualname__} cannot be compiled: {_reason(own.error, component)}"
     return DeckError("\n  ".join(filter(None, [text, source, _MAY_USE])))
+
+
+def _home(component: type[Component]) -> str:
+    """The file of a class: its module's, else that of its methods."""
+    codes = [item.__code__.co_filename for item in vars(component).values() if isinstance(item, FunctionType)]
+    return getattr(sys.modules.get(component.__module__), "__file__", None) or next(iter(codes), "<unknown>")
 
 
 def _is_ours(file: str) -> bool:

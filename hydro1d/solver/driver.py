@@ -14,7 +14,8 @@ from hydro1d.errors import DeckError
 from hydro1d.scheme import profiles, step
 from hydro1d.scheme.records import CLOCK, COLLAPSED, INVERTED, LAYER_STATE, NOT_FINITE, PAUSED
 from hydro1d.solver.column import Column, initial_velocities
-from hydro1d.solver.program import Program
+from hydro1d.solver.program import RAISED, Program
+from hydro1d.solver.raised import explain
 from hydro1d.solver.sink import Frame, Sink
 from hydro1d.solver.state import State
 from hydro1d.variables import NODE, ZONE
@@ -250,6 +251,9 @@ class _Run:
         """Say which zone broke down, and why; what the last attempt recorded is handed over, and the state it ended in."""
         self.hand_over()
         state = self.state
+        if status == RAISED:
+            zone, cause = explain(self.column, self.program, state)
+            return self.outcome("failed", cause, zone)
         strain = -np.diff(state.displacement) / np.diff(self.column.node_coordinate)
         self.program.advance_past(state, [(state.time, True)], steps=0, row_at_stop=False)
         self.hand_over()

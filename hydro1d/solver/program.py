@@ -4,30 +4,42 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Sequence
+from types import FunctionType
 from typing import Any
 
 import numpy as np
 
 from hydro1d.boundaries.base import Boundary
 from hydro1d.components.parameters import Component
+from hydro1d.errors import Hydro1dError
 from hydro1d.jit import build, reach, records
 from hydro1d.jit.memory import placed
 from hydro1d.jit.primitives import at
 from hydro1d.jit.refusals import NotCompilable, explanation
 from hydro1d.laws.base import LARGEST_STRAIN
 from hydro1d.scheme import ends, foam_pass, history, node_pass, profiles, step, zone_pass
-from hydro1d.scheme.records import CALL, COUNTS, RECORDS, SINGLE, Grid
+from hydro1d.scheme.records import CALL, COLLAPSED, COUNTS, RECORDS, SINGLE, Grid
 from hydro1d.solver.column import Column, LayerBlock
 from hydro1d.solver.state import State
 
 _BYTES = ("parameters",)
 _ADDRESSES = ("passes",)
+RAISED = COLLAPSED + 1  # the status of a call in which a law or a boundary raised an exception
 FIELDS: dict[str, Any] = {
     name: RECORDS.get(name)
     or (int if name in COUNTS else "u1" if name in _BYTES else "i8" if name in _ADDRESSES else "f8")
     for name in Grid._fields
 }
 SHARED = build.Shared("Grid", FIELDS)
+
+
+class PassRaised(Hydro1dError):
+    """A law or a boundary raised an exception; compiled code does not tell which."""
+
+    exit_code = 3
+
+    def __init__(self) -> None:
+        super().__init__("a law or a boundary raised an exception before the first step")
 
 
 class Program:
@@ -51,7 +63,7 @@ class Program:
         blocks = [records.pack(members) for members in self._members]
         starts = np.cumsum([0, *(len(block) for block in blocks)])
         self.own = self._arrays(np.concatenate(blocks), starts)
-        self._march: Callable[[Any], None] = self._bound()
+        self._march: Callable[[Any], int | None] = self._bound()
 
     def _arrays(self, parameters: np.ndarray, starts: np.ndarray) -> dict[str, Any]:
         """What a column needs beside its state, by the names of `Grid`."""
@@ -93,7 +105,7 @@ class Program:
             "probe_count": len(column.probes),
         }
 
-    def _bound(self) -> Callable[[Any], None]:
+    def _bound(self) -> Callable[[Any], int | None]:
         """The time loop; its table of passes, by number: the zones of each layer, both ends, the nodes."""
         layers = zip(self.column.layers, self._members, strict=False)
         makers = [_zones(block, members) for block, members in layers]
@@ -106,7 +118,7 @@ class Program:
             self._passes.append(node_pass.kick_nodes)
             return step.march
         addresses = [maker.address() for maker in makers]
-        nodes = build.Request("nodes", lambda _copies: node_pass.kick_nodes, reach.digest(node_pass.kick_nodes))
+        nodes = build.Request("nodes", lambda _copies: node_pass.kick_nodes, lambda: reach.digest(node_pass.kick_nodes))
         addresses.append(build.address(nodes, SHARED))
         self._table = np.array([0, *addresses], dtype=np.int64)
         return build.function(march_address())
@@ -123,7 +135,11 @@ class Program:
         self._profiles = np.empty((count, self.profile_length))
         order.steps, order.history_every, order.row_at_stop = steps, self.column.history_every, row_at_stop
         order.row_capacity, order.stops, order.enough_stops = self.row_capacity, len(stops), enough
-        self._run(state, stops=np.array(stops, dtype=float).reshape(-1), profiles=self._profiles.reshape(-1))
+        try:
+            self._run(state, stops=np.array(stops, dtype=float).reshape(-1), profiles=self._profiles.reshape(-1))
+        except PassRaised:
+            state.clock[0].cycle += 1  # the cycle that breaks down counts, as it does where a step answers so
+            order.status, order.rows, order.profiles, order.is_fresh = RAISED, 0, 0, True
         return int(order.status)
 
     def profiles(self) -> np.ndarray:
@@ -157,8 +173,12 @@ class Program:
         if build.interpreted():
             values = {**self.own, **state.arrays(), "stops": None, "profiles": None, **arrays}
             grid = _plain_grid(values, self._passes)
-            self._march(grid) if which is None else grid.passes[which[0]](*which[1:])
-            _write_back(grid, values)
+            try:
+                self._march(grid) if which is None else grid.passes[which[0]](*which[1:])
+            except Exception as error:
+                raise PassRaised from error
+            finally:
+                _write_back(grid, values)
             return
         if self._known is None or self._known[0] is not state:
             values = {**self.own, **state.arrays(), "stops": self._table, "profiles": self._table}
@@ -169,9 +189,11 @@ class Program:
         for name, array in arrays.items():
             table[Grid._fields.index(name)] = array.ctypes.data
         if which is None:
-            self._march(table.ctypes.data)
+            raised = self._march(table.ctypes.data)
         else:
-            build.call_pass(int(self._table[1 + which[0]]), table, which[1:])
+            raised = build.call_pass(int(self._table[1 + which[0]]), table, which[1:])
+        if raised:
+            raise PassRaised
 
 
 _REMEMBERED = ("curve", "tangents", "stiffnesses", "speeds")
@@ -227,15 +249,19 @@ class _Maker:
 
     def address(self) -> int:
         """The address of the pass as machine code. Raises DeckError for code of a user's that cannot be compiled."""
-        name = f"{self.factory.__name__} {self.kind.__module__}.{self.kind.__qualname__}"
+        name, owner = f"{self.factory.__name__} {self.kind.__module__}.{self.kind.__qualname__}", self.kind.__qualname__
         try:
-            try:
-                content = f"{_shape(self.kind, self.members)} {self.arguments} {reach.digest(self.factory)}"
-            except reach.Unreachable:
-                content = None
-            return build.address(build.Request(name, self._make, content), SHARED)
+            return build.address(build.Request(name, self._make, self._content, owner=owner), SHARED)
         except NotCompilable as refused:
             raise explanation(self.kind, refused.failures) or refused from refused.__cause__
+
+    def _content(self) -> str:
+        """All that the machine code depends on: the members, and the code of the pass with the methods that it may call."""
+        methods: dict[str, list[FunctionType]] = {}
+        for kind in records.kinds(self.kind, self.members):
+            for key, method in records.methods(kind).items():
+                methods.setdefault(key, []).append(method)
+        return f"{_shape(self.members)} {self.arguments} {reach.digest(self.factory, methods=methods)}"
 
     def _make(self, copies: Any) -> Any:
         from hydro1d.jit import lowering
@@ -267,19 +293,19 @@ def _end(boundary: Boundary, members: dict[str, Any]) -> _Maker:
     return _Maker(ends.end_pass, type(boundary), members, (len(type(boundary).state_variables) * (0.0,),))
 
 
-def _shape(kind: type[Component], members: dict[str, Any]) -> str:
-    """What the machine code depends on of a component: its code and the kinds, not the values, of its members."""
+def _shape(members: dict[str, Any]) -> str:
+    """The kinds, not the values, of a component's members."""
     kinds = []
     for name, value in members.items():
         if isinstance(value, tuple):
-            inner = records.ROW if value[0] is records.ROW else _shape(type(value[0]), value[1])
+            inner = records.ROW if value[0] is records.ROW else _shape(value[1])
         else:
             inner = type(value).__name__
         kinds.append(f"{name}:{inner}")
-    return f"{build.fingerprint(kind)}({', '.join(kinds)})"
+    return f"({', '.join(kinds)})"
 
 
 def march_address() -> int:
     """Address of the time loop, which is the same for all columns."""
-    request = build.Request("march", lambda _copies: step.march, reach.digest(step.march), is_leaf=False)
+    request = build.Request("march", lambda _copies: step.march, lambda: reach.digest(step.march), is_leaf=False)
     return build.address(request, SHARED)

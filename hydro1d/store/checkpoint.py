@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from hydro1d.store.source import FileSource
 
 LAW_HASH = "law_hash_"
+BOUNDARY_HASH = "boundary_hash_"
+_UNKNOWN = "unknown: "  # begins a hash of code that could not be followed to its end
 # Keys that may differ between a checkpoint's deck and the deck of the restart: they change no step taken so far.
 _FREE = ("title", "output", "checkpoint", "time.end")
 _MISSING = object()
@@ -29,7 +31,7 @@ class Checkpoint:
     """A checkpoint that was read: the solver's state and the records up to it.
 
     arrays: the state, bit for bit as saved, for `State.from_arrays`; cycle and time (s): where it stands;
-    law_hashes: by material; source: the records.
+    law_hashes: by material, boundary_hashes: by side; source: the records.
     """
 
     path: Path
@@ -39,6 +41,7 @@ class Checkpoint:
     deck_text: str
     resolved: dict[str, Any]
     law_hashes: dict[str, str]
+    boundary_hashes: dict[str, str]
     schema_version: int
     attributes: dict[str, Any]
     source: FileSource
@@ -61,13 +64,16 @@ def read_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:
         time=float(attributes["checkpoint_time"]),
         deck_text=source.deck_text,
         resolved=source.deck,
-        law_hashes={
-            key.removeprefix(LAW_HASH): str(value) for key, value in attributes.items() if key.startswith(LAW_HASH)
-        },
+        law_hashes=_hashes(attributes, LAW_HASH),
+        boundary_hashes=_hashes(attributes, BOUNDARY_HASH),
         schema_version=source.schema_version,
         attributes=attributes,
         source=source,
     )
+
+
+def _hashes(attributes: Mapping[str, Any], kind: str) -> dict[str, str]:
+    return {key.removeprefix(kind): str(value) for key, value in attributes.items() if key.startswith(kind)}
 
 
 def verify_checkpoint(
@@ -75,11 +81,13 @@ def verify_checkpoint(
     resolved: Mapping[str, Any],
     law_hashes: Mapping[str, str] | None = None,
     force: bool = False,
+    boundary_hashes: Mapping[str, str] | None = None,
 ) -> None:
     """Check that a run of the deck `resolved` may carry on from a checkpoint.
 
-    A later end, other output and other checkpoints are fine. Another schema version, physics or law source raises
-    FileProblem that names each difference, unless `force` is set. An end before the checkpoint always does.
+    A later end, other output and other checkpoints are fine. Another schema version, physics, code of a law (by material)
+    or of a boundary (by side), also where that cannot be known, raises FileProblem that names each difference, unless
+    `force` is set. An end before the checkpoint always does.
     """
     end = resolved.get("time", {}).get("end")
     if isinstance(end, int | float) and end < checkpoint.time:
@@ -93,14 +101,24 @@ def verify_checkpoint(
         f"{key}: {_shown(old)} in the checkpoint, {_shown(new)} in the deck"
         for key, old, new in _differences(checkpoint.resolved, resolved, "")
     ]
-    problems += [
-        f"law of material {name}: its source has changed since the checkpoint was written"
-        for name, value in (law_hashes or {}).items()
-        if checkpoint.law_hashes.get(name, value) != value
-    ]
+    problems += _code_problems("law of material {}", checkpoint.law_hashes, law_hashes or {})
+    problems += _code_problems("{} boundary", checkpoint.boundary_hashes, boundary_hashes or {})
     if problems:
         listed = "\n".join(f"  {problem}" for problem in problems)
         raise FileProblem(f"cannot carry on from {checkpoint.path}:\n{listed}")
+
+
+def _code_problems(whose: str, old: Mapping[str, str], new: Mapping[str, str]) -> Iterator[str]:
+    """What is to be said of hashes that differ, or that do not tell."""
+    for name, value in new.items():
+        known = old.get(name, value)
+        reason = next((text.removeprefix(_UNKNOWN) for text in (value, known) if text.startswith(_UNKNOWN)), "")
+        if reason:
+            yield f"{whose.format(name)}: whether its code has changed cannot be known, since it depends on {reason}"
+        elif known != value:
+            yield (
+                f"{whose.format(name)}: its source has changed since the checkpoint was written, or what it uses, or Python"
+            )
 
 
 def _differences(old: Any, new: Any, path: str) -> Iterator[tuple[str, Any, Any]]:

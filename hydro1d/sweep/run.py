@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor, as_completed
 from pathlib import Path
@@ -94,14 +95,19 @@ def _result(future: Future) -> dict[str, Any]:
 
 def digest(sweep: Sweep) -> str:
     """What a sweep's rows depend on, as one text: its jobs, its laws, and this version of hydro1d."""
-    from hydro1d.jit.build import fingerprint
+    from hydro1d.jit.build import UNKNOWN, fingerprint
 
     jobs = [(job.overrides, job.quantities) for job in sweep.jobs()]
     try:
-        laws = [fingerprint(type(layer.law)) for layer in Job(sweep.data, sweep.folder, sweep.overrides).deck().layers]
+        deck = Job(sweep.data, sweep.folder, sweep.overrides).deck()
+        parts = [*(layer.law for layer in deck.layers), deck.left, deck.right]
+        codes = [fingerprint(part) for part in parts]
+        codes += [repr(part) for part in parts]  # with the values of the tables that files hold
     except DeckError:
-        laws = []
-    content = json.dumps([sweep.data, sweep.folder, jobs, laws, _code()], sort_keys=True, default=str)
+        codes = []
+    if any(code.startswith(UNKNOWN) for code in codes):
+        codes.append(os.urandom(16).hex())  # rows that may be of other code are not taken over
+    content = json.dumps([sweep.data, sweep.folder, jobs, codes, _code()], sort_keys=True, default=str)
     return hashlib.sha256(content.encode()).hexdigest()
 
 

@@ -175,11 +175,12 @@ def test_compiling_is_said_on_a_terminal_and_to_the_log_and_not_when_quiet(deck,
 def test_the_bar_says_that_it_compiles_and_begins_anew_after_it(monkeypatch, capsys):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     monkeypatch.setattr(build.cache, "read", lambda key: None)
-    monkeypatch.setattr(build.compile, "object_code", lambda *arguments: (b"", False))
-    monkeypatch.setattr(build, "_load", lambda code: 0)
+    monkeypatch.setattr(build.cache, "write", lambda key, code: "")
+    monkeypatch.setattr(build.compile, "machine_code", lambda *arguments: build.compile.MachineCode(b""))
+    monkeypatch.setattr(build, "_loaded", lambda made: 0)
     shared = build.Shared("Nothing", {})
     with _common.progress_bar(quiet=False) as progress:
-        build.address(build.Request("some kernel", lambda _: None, "of this test"), shared)
+        build.address(build.Request("some kernel", lambda _: None, lambda: "of this test"), shared)
         said = capsys.readouterr().err
         time.sleep(1.1)
         progress(0.5)
@@ -187,7 +188,7 @@ def test_the_bar_says_that_it_compiles_and_begins_anew_after_it(monkeypatch, cap
         progress(0.75)
     assert "compiling, once" in said
     assert "00:01" not in capsys.readouterr().err.split("50%")[-1]
-    build.address(build.Request("another kernel", lambda _: None, "of this test"), shared)
+    build.address(build.Request("another kernel", lambda _: None, lambda: "of this test"), shared)
     assert capsys.readouterr().err == ""
 
 

@@ -142,11 +142,11 @@ def answers(chain: Chain, pressure: float, shares: np.ndarray) -> tuple[np.ndarr
 
 
 @functools.cache
-def _marching() -> Callable[[Masses], None]:
+def _marching() -> Callable[[Masses], object]:
     """`march` for arrays, compiled, or as it stands for a debugger."""
     if build.interpreted():
         return lambda m: march(m._replace(told=m.told[0]))
-    request = build.Request("chain of rooms", lambda _copies: march, reach.digest(march), is_leaf=False)
+    request = build.Request("chain of rooms", lambda _copies: march, lambda: reach.digest(march), is_leaf=False)
     run = build.function(build.address(request, SHARED))
     return lambda m: run(build.table(m, SHARED.fields).ctypes.data)
 
