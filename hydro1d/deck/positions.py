@@ -3,8 +3,6 @@
 The text is valid TOML by then (tomllib has read it), so this scanner only has to follow the brackets.
 """
 
-from __future__ import annotations
-
 import bisect
 import re
 import tomllib

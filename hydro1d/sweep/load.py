@@ -1,7 +1,5 @@
 """SWEEP.toml. Mistakes are reported as for a deck: all in one message, each with its line."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar

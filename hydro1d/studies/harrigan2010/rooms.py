@@ -5,8 +5,6 @@ with steps that follow the stiffest spring and the shortest time to a collision.
 chain has half a mass at the loaded end; here that is a choice.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Callable, Sequence
