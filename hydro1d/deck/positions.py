@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Iterator
 from typing import NamedTuple
 
-Location = tuple[str | int, ...]
+from hydro1d.deck.messages import Location
 
 _MAX_PLACES = 200_000
 # No possessive quantifier around alternatives: Python 3.11 before 3.11.5 loses matches with it.

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 from pydantic import Field, ValidationError
 
 from hydro1d.components.parameters import Component
-from hydro1d.deck.messages import Finding, deck_error, findings_of
-from hydro1d.deck.positions import Location, Positions
+from hydro1d.deck.messages import Finding, Location, deck_error, findings_of
+from hydro1d.deck.positions import Positions
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError, FileProblem, Problem
 from hydro1d.sweep.base import base_data, check_key
