@@ -14,14 +14,14 @@ __version__ = "0.2.0.dev0"
 if TYPE_CHECKING:  # for type checkers and editors; at run time __getattr__ does it
     from typing import Any
 
-    from hydro1d.api import run  # noqa: F401
-    from hydro1d.boundaries.base import Boundary, End  # noqa: F401
-    from hydro1d.components.parameters import above, at_least, derived, fraction, not_negative, number, pairs, positive  # noqa: F401
-    from hydro1d.deck import Deck, Layer, load_deck  # noqa: F401
-    from hydro1d.errors import BreakdownError, DeckError, FileProblem, Hydro1dError, Interrupted  # noqa: F401
-    from hydro1d.laws.base import Foam, Law, PlateauFoam, Point, Response  # noqa: F401
-    from hydro1d.loads.base import Pulse  # noqa: F401
-    from hydro1d.store import Run, open_run  # noqa: F401
+    from hydro1d.api import run
+    from hydro1d.boundaries.base import Boundary, End
+    from hydro1d.components.parameters import above, at_least, derived, fraction, not_negative, number, pairs, positive
+    from hydro1d.deck import Deck, Layer, load_deck
+    from hydro1d.errors import BreakdownError, DeckError, FileProblem, Hydro1dError, Interrupted
+    from hydro1d.laws.base import Foam, Law, PlateauFoam, Point, Response
+    from hydro1d.loads.base import Pulse
+    from hydro1d.store import Run, open_run
 
 # Modules are loaded when a name is first used: `hydro1d --help` and plotting need few of them.
 _HOME = {

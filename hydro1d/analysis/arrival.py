@@ -1,17 +1,12 @@
 """Arrival times of waves at the support, estimated from a deck alone, to compare with its end time."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from hydro1d.analysis.transmission import ends_of
-from hydro1d.laws.base import Foam
-
-if TYPE_CHECKING:
-    from hydro1d.boundaries.base import Boundary
-    from hydro1d.deck import Deck
-    from hydro1d.laws.base import Law
+from hydro1d.boundaries.base import Boundary
+from hydro1d.deck import Deck
+from hydro1d.laws.base import Foam, Law
 
 BISECTIONS = 60
 

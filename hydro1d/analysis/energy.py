@@ -1,7 +1,5 @@
 """Elastic energy: the part of the internal energy that unloading recovers."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

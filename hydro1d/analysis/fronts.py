@@ -1,13 +1,8 @@
 """Paths and arrival times of compaction fronts, from the front positions in the history."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 FRONTS = {"front_position": 1.0, "distal_front_position": -1.0}  # direction in which each front runs
 MAX_DEVIATION = 0.01  # share of the column's length; a measure that goes back or leaps farther has lost the front

@@ -1,15 +1,12 @@
 """Foam that opened: zones that bear no tension, were loaded, and came apart afterwards (spall)."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from hydro1d.deck import Deck
-    from hydro1d.laws.base import Law
-    from hydro1d.store import Run
+from hydro1d.deck import Deck
+from hydro1d.laws.base import Law
+from hydro1d.store import Run
 
 MIN_OPENING = 1e-3  # strain; a zone that opened by less only oscillates
 MAX_VALUES = 20_000_000  # values of one profile quantity; the summary of a longer run leaves openings out

@@ -1,7 +1,5 @@
 """Yes/no outcomes of a run by name: ``enhanced``, ``fully_crushed``, ``separated``, ``support_peak > 2 MPa``."""
 
-from __future__ import annotations
-
 import math
 import operator
 import re

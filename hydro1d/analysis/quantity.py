@@ -3,8 +3,6 @@
 A name is looked up, an argument is a column of the history or a length; nothing is evaluated.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable

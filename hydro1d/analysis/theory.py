@@ -3,8 +3,6 @@
 Laws know nothing of the theory and the theory nothing of the laws; they meet here, in one line a law.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from inspect import signature
 from typing import Any

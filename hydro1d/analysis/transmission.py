@@ -1,20 +1,16 @@
 """Transmission: the peak stress on the support over the peak of the applied pressure, and whether the run decides it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from hydro1d.analysis.fronts import FRONTS
+from hydro1d.boundaries.base import Boundary
 from hydro1d.components.plugins import builtin_names, find
+from hydro1d.deck import Deck
 from hydro1d.loads.base import Pulse
-
-if TYPE_CHECKING:
-    from hydro1d.boundaries.base import Boundary
-    from hydro1d.deck import Deck
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 MIN_PRESSURE = 0.01  # share of the peak pressure; a pulse below it has ended
 LAST_SHARE = 0.02  # share of the time calculated; a quantity that changes in this last part is still changing

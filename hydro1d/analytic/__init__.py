@@ -3,19 +3,10 @@
 from hydro1d.analytic.clad_column import CladColumn
 from hydro1d.analytic.compaction_column import ColumnHistory
 from hydro1d.analytic.compaction_loads import CompactionPulse, CompactionStriker
-from hydro1d.analytic.curves import (
-    EPH,
-    EPPH,
-    RPH,
-    Curve,
-    Elastic,
-    Table,
-    TangentEPPH,
-    Trilinear,
-    UserCurve,
-    stiff_eppr,
-    stiff_rppl,
-)
+from hydro1d.analytic.curves.base import Curve
+from hydro1d.analytic.curves.hardening import EPH, RPH, Elastic
+from hydro1d.analytic.curves.measured import Table, UserCurve
+from hydro1d.analytic.curves.plateau import EPPH, TangentEPPH, Trilinear, stiff_eppr, stiff_rppl
 from hydro1d.analytic.elastic_layers import ElasticLayer, ElasticLayers, reflection, transmission
 from hydro1d.analytic.hugoniot import Hugoniot, compaction_hugoniot
 from hydro1d.analytic.isentropic import SimpleWave
@@ -39,54 +30,5 @@ from hydro1d.analytic.step_loading import StepLoading, piston, pressure_step
 from hydro1d.analytic.taylor_plate import PlateHistory, TaylorPlate
 from hydro1d.analytic.viscous_profile import ViscousProfile
 
-__all__ = [
-    "EPH",
-    "EPPH",
-    "RPH",
-    "RPPL",
-    "CladColumn",
-    "ColumnHistory",
-    "CompactionPulse",
-    "CompactionStriker",
-    "Curve",
-    "Elastic",
-    "ElasticLayer",
-    "ElasticLayers",
-    "EnergyBalanceStriker",
-    "ExponentialPulse",
-    "Fields",
-    "FriedlanderPulse",
-    "FrontHistory",
-    "Gas",
-    "Hugoniot",
-    "Jump",
-    "Noh",
-    "PlateHistory",
-    "Pulse",
-    "RPHFoam",
-    "RPHPiston",
-    "RPHStriker",
-    "RPPLPulse",
-    "RPPLStriker",
-    "RectangularPulse",
-    "Residuals",
-    "RiemannProblem",
-    "SimpleWave",
-    "State",
-    "StepLoading",
-    "Table",
-    "TablePulse",
-    "TangentEPPH",
-    "TaylorPlate",
-    "TriangularPulse",
-    "Trilinear",
-    "UserCurve",
-    "ViscousProfile",
-    "compaction_hugoniot",
-    "piston",
-    "pressure_step",
-    "reflection",
-    "stiff_eppr",
-    "stiff_rppl",
-    "transmission",
-]
+# All classes and functions that are imported above.
+__all__ = sorted(name for name, item in globals().items() if hasattr(item, "__module__") and name[0] != "_")

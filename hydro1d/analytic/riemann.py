@@ -217,12 +217,9 @@ class RiemannProblem:
     def laboratory(self, x: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at positions x (m) at time t (s)."""
         offset = finite("x", x) - self.interface
-        speed = _speed(offset, times(t))
-        return self._fields_at(self._lagrangian_speed(speed))
-
-    def _lagrangian_speed(self, speed: Array) -> Array:
-        left, right = self._waves
-        return np.where(speed < self.star_velocity, -_material_speed(left, speed), _material_speed(right, speed))
+        speed, (left, right) = _speed(offset, times(t)), self._waves
+        to_the_left = speed < self.star_velocity
+        return self._fields_at(np.where(to_the_left, -_material_speed(left, speed), _material_speed(right, speed)))
 
     def _fields_at(self, speed: Array) -> Fields:
         left, right = (wave.fields(np.abs(speed)) for wave in self._waves)

@@ -97,13 +97,10 @@ class RPPLPulse(StoppingFront):
         loaded = np.asarray(t) <= self.duration
         share = coordinate / np.where(history.front > 0.0, history.front, 1.0)
         block_stress = np.where(loaded, self.pressure, history.front_stress * share)
-        fields = self.material.fields(crushed, history.velocity, block_stress, self._crossing_stress(coordinate))
-        return fields._replace(stress=np.where(np.asarray(t) > self.stop_time, np.nan, fields.stress))
-
-    def _crossing_stress(self, coordinate: Array) -> Array:
-        """Stress behind the front when it passed."""
         beyond = np.maximum(coordinate - self.pulse_length, 0.0)
-        return self.after_pulse.stress_at(beyond * self.material.densification_strain)
+        crossing = self.after_pulse.stress_at(beyond * self.material.densification_strain)
+        fields = self.material.fields(crushed, history.velocity, block_stress, crossing)
+        return fields._replace(stress=np.where(np.asarray(t) > self.stop_time, np.nan, fields.stress))
 
 
 def critical_duration(material: RPPL, pressure: ArrayLike, length: ArrayLike) -> Array:

@@ -111,17 +111,13 @@ class ViscousProfile:
     def __call__(self, coordinate: ArrayLike, t: ArrayLike) -> Fields:
         """Fields at coordinate (m) and t (s), which broadcast; a half-space both ways."""
         place = finite("coordinate", coordinate) - self.front_speed * finite("t", t)
-        strain = self._strain_at(place)
+        distances, strains = self._table
+        strain = np.interp(-place, -distances, strains, left=self._ends[0], right=self._ends[1])
         curve, change = self.curve, strain - self._ends[0]
         velocity = curve.yield_velocity + self.front_speed * change
         line = curve.yield_stress + 0.5 * curve.density * self.front_speed**2 * change
         energy = (0.5 * curve.yield_stress * curve.yield_strain + line * change) / curve.density
         return Fields(velocity, curve.stress(strain), strain, curve.density / (1.0 - strain), energy)
-
-    def _strain_at(self, place: Array) -> Array:
-        """Strain at a distance ahead of the middle."""
-        distances, strains = self._table
-        return np.interp(-place, -distances, strains, left=self._ends[0], right=self._ends[1])
 
     @cached_property
     def _table(self) -> tuple[Array, Array]:

@@ -1,7 +1,5 @@
 """The same scheme in plain numpy, for one layer of `epph`: what a first script would do."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

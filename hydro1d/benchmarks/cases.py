@@ -1,7 +1,5 @@
 """The columns that are timed: a pressure on the left, a wall on the right."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Timing: interleaved, best of many, so that what else runs on the machine disturbs a ratio least."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable, Sequence

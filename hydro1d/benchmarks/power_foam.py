@@ -1,7 +1,5 @@
 """A law as a user writes it, for the benchmark."""
 
-from __future__ import annotations
-
 from hydro1d.components.parameters import at_least, positive
 from hydro1d.laws.base import Foam
 

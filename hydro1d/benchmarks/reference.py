@@ -1,7 +1,5 @@
 """The C reference through ctypes: built with the compiler of the machine, if there is one."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The benchmark as a whole: what is measured, and how it is told."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Whole processes: how long until a command has its answer."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

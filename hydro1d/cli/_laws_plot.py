@@ -1,7 +1,5 @@
 """``hydro1d laws plot``: a law's curve before anything is run."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """``hydro1d bench``: how fast is it here, beside C and numpy?"""
 
-from __future__ import annotations
-
 import argparse
 
 

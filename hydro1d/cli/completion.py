@@ -4,8 +4,6 @@ The script only tells the shell to ask hydro1d itself, through argcomplete: what
 commands at that moment.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections.abc import Callable, Iterable

@@ -1,7 +1,5 @@
 """``hydro1d new``: a commented deck to start from."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """``hydro1d report``: one page with everything about a run."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

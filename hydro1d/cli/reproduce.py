@@ -1,7 +1,5 @@
 """``hydro1d reproduce``: every figure and number of the paper."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """``hydro1d schema``: the JSON schema of a deck, for editors."""
 
-from __future__ import annotations
-
 import argparse
 
 from hydro1d.cli import _common

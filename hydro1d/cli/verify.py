@@ -1,7 +1,5 @@
 """``hydro1d verify``: the solver against exact solutions."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

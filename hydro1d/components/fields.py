@@ -1,7 +1,5 @@
 """Fields of components: raw values become SI numbers and tables before pydantic checks their ranges."""
 
-from __future__ import annotations
-
 import numbers
 from collections.abc import Mapping
 from pathlib import Path

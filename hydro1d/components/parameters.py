@@ -10,8 +10,6 @@ the check, the message, the unit conversion and the JSON schema::
 Values are SI numbers or strings with a unit (``"22 MPa"``); inside, everything is SI.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """Tables of two columns: a list of pairs, or a CSV file with an optional header and an optional row of units."""
 
-from __future__ import annotations
-
 import itertools
 import re
 import stat

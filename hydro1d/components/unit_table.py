@@ -1,7 +1,5 @@
 """The units that decks use, as exact ratios to SI, and what each dimension is called in messages."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 Dimension = tuple[float, float, float]  # powers of mass, length, time

@@ -5,8 +5,6 @@ then (its import takes longer than a short run). A product may be written ``kg/m
 or ``kg·m⁻³``; as in pint, ``a/b c`` means (a/b)·c.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 import numbers

@@ -1,20 +1,15 @@
 """Checks between the parts of a deck: zones in all, times and positions, laws and loads on their ends."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from hydro1d.boundaries.base import Boundary
 from hydro1d.components.units import shorten
 from hydro1d.deck.messages import MAX_FOUND, Finding
 from hydro1d.deck.parts import MAX_ZONES, Layer, Output, Time
 from hydro1d.errors import Hydro1dError
+from hydro1d.laws.base import Law
 from hydro1d.laws.check import check_law
-
-if TYPE_CHECKING:
-    from hydro1d.boundaries.base import Boundary
-    from hydro1d.laws.base import Law
 
 
 def cross_problems(

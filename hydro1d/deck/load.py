@@ -1,11 +1,9 @@
 """From a deck's text to a checked `Deck`: every part is built on its own, so that all errors come at once."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from pydantic import Field, ValidationError, field_validator
 
@@ -19,6 +17,7 @@ from hydro1d.deck.messages import (
     MAX_FOUND,
     DeckProblems,
     Finding,
+    Location,
     deck_error,
     findings_of,
     one_of,
@@ -32,9 +31,6 @@ from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError
 from hydro1d.laws.base import Law
 from hydro1d.scheme.viscosity import Viscosity
-
-if TYPE_CHECKING:
-    from hydro1d.deck.positions import Location
 
 _SECTIONS = ("title", "material", "layer", "left", "right", "time", "viscosity", "output", "checkpoint")
 _LAYER_KEYS = ("material", "thickness", "zones", "velocity")  # a deck names the law by its material

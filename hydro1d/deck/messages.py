@@ -1,11 +1,9 @@
 """From pydantic's errors to sentences: the key, the value as the user wrote it, what is allowed, a suggestion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin
+from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
@@ -13,8 +11,7 @@ from pydantic.fields import FieldInfo
 from hydro1d.components.units import describe, shorten
 from hydro1d.errors import DeckError, Problem
 
-if TYPE_CHECKING:
-    from hydro1d.deck.positions import Location
+Location = tuple[str | int, ...]  # where in a deck: ("layer", 1, "zones")
 
 MAX_SHOWN = 50  # problems in one message
 MAX_FOUND = 500  # problems collected from one table; each costs time, and 50 are shown

@@ -1,11 +1,9 @@
 """A whole deck as one frozen model; values in SI."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
 
@@ -61,7 +59,7 @@ class Deck(Component):
             raise deck_error(values.get("path"), findings_of(error, type(self), values, ())) from None
 
     @model_validator(mode="after")
-    def _as_a_whole(self) -> Deck:
+    def _as_a_whole(self) -> Self:
         found = cross_problems(self.layers, self.left, self.right, self.time, self.output)
         if found:
             raise deck_error(self.path, found)

@@ -1,7 +1,5 @@
 """Names by which a deck refers to components built in Python."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

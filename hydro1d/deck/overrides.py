@@ -1,16 +1,11 @@
 """``--set layer[0].zones=2000``: values that take the place of the deck's."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from hydro1d.deck.messages import Finding, path_text
-
-if TYPE_CHECKING:
-    from hydro1d.deck.positions import Location
+from hydro1d.deck.messages import Finding, Location, path_text
 
 _PART = re.compile(r'\.?(?:"([^"]*)"|\'([^\']*)\'|\[(\d{1,9})\]|([^.\[\]="\']+))')
 _MAX_PARTS = 20

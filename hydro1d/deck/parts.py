@@ -1,10 +1,8 @@
 """The parts of a deck as frozen models: layers, times, output, checkpoints; values in SI."""
 
-from __future__ import annotations
-
 import itertools
 import unicodedata
-from typing import Any
+from typing import Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
@@ -85,7 +83,7 @@ class Checkpoint(Component):
     wall: float | None = positive("s", "wall time between checkpoints", default=None)
 
     @model_validator(mode="after")
-    def _exactly_one(self) -> Checkpoint:
+    def _exactly_one(self) -> Self:
         if sum(interval is not None for interval in (self.cycles, self.time, self.wall)) != 1:
             raise ValueError("needs exactly one of cycles, time, wall")
         return self

@@ -8,23 +8,17 @@ Dimensionless decks, in which every number is of the order of one, are no mistak
 with a density of at least `_LIGHTEST`, or with a solid too strong for its density, is examined.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
 from hydro1d.components import tables
-from hydro1d.deck.messages import path_text
-from hydro1d.laws.base import answer_by_point
-
-if TYPE_CHECKING:
-    from hydro1d.deck.model import Deck
-    from hydro1d.deck.positions import Location
-    from hydro1d.laws.base import Law
+from hydro1d.deck.messages import Location, path_text
+from hydro1d.deck.model import Deck
+from hydro1d.laws.base import Law, answer_by_point
 
 _LIGHTEST = 5.0  # kg/m³; lighter solids are laboratory curiosities, and gases have other stresses
 _STRONG = 1e5  # Pa: beyond any solid lighter than the least density below

@@ -3,15 +3,13 @@
 The text is valid TOML by then (tomllib has read it), so this scanner only has to follow the brackets.
 """
 
-from __future__ import annotations
-
 import bisect
 import re
 import tomllib
 from collections.abc import Iterator
 from typing import NamedTuple
 
-Location = tuple[str | int, ...]
+from hydro1d.deck.messages import Location
 
 _MAX_PLACES = 200_000
 # No possessive quantifier around alternatives: Python 3.11 before 3.11.5 loses matches with it.

@@ -1,7 +1,5 @@
 """From bytes to plain data: reading the file, TOML's grammar, and bounds that keep any input harmless."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

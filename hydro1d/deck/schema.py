@@ -1,7 +1,5 @@
 """The JSON schema of a deck, for editors: assembled from the models of every law, boundary and pulse there is."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -11,17 +11,5 @@ from hydro1d.fit._fitting import Fit, fit_curve, fittable
 from hydro1d.fit._plot import draw
 from hydro1d.fit._table import Tabulated, tabulate
 
-__all__ = [
-    "Efficiency",
-    "Fit",
-    "Measured",
-    "MeasuredCurve",
-    "Tabulated",
-    "draw",
-    "energy_efficiency",
-    "fit_curve",
-    "fittable",
-    "read_curve",
-    "read_measured",
-    "tabulate",
-]
+# All classes and functions that are imported above.
+__all__ = sorted(name for name, item in globals().items() if hasattr(item, "__module__") and name[0] != "_")

@@ -1,7 +1,5 @@
 """How far the fitted parameters are to be trusted."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Reading a measured quasi-static curve from a file, and checking it."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import NamedTuple

@@ -6,8 +6,6 @@ begins to densify, and the mean stress from yield to there is the plateau (Li, M
 (2006) 371-392, doi:10.1177/0021955X06063519).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

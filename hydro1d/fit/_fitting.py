@@ -1,7 +1,5 @@
 """Fitting a law to a measured curve by least squares."""
 
-from __future__ import annotations
-
 import itertools
 import os
 from collections.abc import Callable, Mapping, Sequence

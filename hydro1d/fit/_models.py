@@ -1,7 +1,5 @@
 """The laws that can be fitted: parameters, where to start, how far they may go."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

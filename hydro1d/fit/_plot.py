@@ -1,21 +1,14 @@
 """A fit as a figure."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from hydro1d.fit._fitting import Fit
 from hydro1d.fit._table import Tabulated
-from hydro1d.plot._base import GREY, PALETTE, legend, new_figure
+from hydro1d.plot._base import GREY, PALETTE, Picture, legend, new_figure
 from hydro1d.plot._units import scale_for
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-def draw(fit: Fit | Tabulated) -> tuple[Figure, np.ndarray]:
+def draw(fit: Fit | Tabulated) -> tuple[Picture, np.ndarray]:
     """Measured curve and fitted law, residuals, energy efficiency: a Figure with Axes (3,)."""
     figure, axes = new_figure(3, 1, (7.2, 8.4), sharex=True)
     upper, middle, lower = axes[:, 0]

@@ -1,7 +1,5 @@
 """A measured curve as `law = "table"` takes it: no noise, no fall of the stress, few points."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
 

@@ -7,7 +7,7 @@
 Nothing here touches pyplot, so no window opens and nothing is global. A run is a `hydro1d.Run` or the name of its file.
 """
 
-from hydro1d.plot import _matplotlib  # noqa: F401 (first: it imports matplotlib whatever MPLBACKEND says)
+from hydro1d.plot import _matplotlib  # first: it imports matplotlib whatever MPLBACKEND says
 from hydro1d.plot._animate import animate
 from hydro1d.plot._base import Picture, save
 from hydro1d.plot._compare import compare

@@ -1,25 +1,19 @@
 """The run as a film: GIF, or MP4 where ffmpeg is."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from hydro1d.errors import DeckError, FileProblem, Hydro1dError
-from hydro1d.plot._base import PALETTE, as_run, heading, new_figure, profile_quantity, scaled, times_of
+from hydro1d.plot._base import PALETTE, RunOrPath, as_run, heading, new_figure, profile_quantity, scaled, times_of
 from hydro1d.plot._frames import along, check_frame, length_label, length_scale
 from hydro1d.plot._profiles import QUANTITIES
 from hydro1d.plot._units import scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 ENDINGS = (".gif", ".mp4")
 

@@ -1,12 +1,10 @@
 """What all figures share: how they look, where the data come from, how they are written."""
 
-from __future__ import annotations
-
 import io
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -17,11 +15,9 @@ from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, FileProblem
 from hydro1d.plot._matplotlib import without_latex
 from hydro1d.plot._units import Scale, scale_for, words
+from hydro1d.store import Run, open_run
 
-if TYPE_CHECKING:
-    from hydro1d.store import Run
-
-    RunOrPath = Run | str | os.PathLike[str]
+RunOrPath = Run | str | os.PathLike[str]
 
 # Okabe & Ito's colours, told apart by colour-blind readers; black is for laws and theory.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C6D31", "#000000")
@@ -102,8 +98,6 @@ def keep_in_view(axes: Axes, values: np.ndarray) -> None:
 
 def as_run(run: RunOrPath) -> Run:
     """The run itself, or the one in the file. Raises FileProblem."""
-    from hydro1d.store import Run, open_run
-
     return run if isinstance(run, Run) else open_run(run)
 
 

@@ -1,9 +1,6 @@
 """Several runs in the same axes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,6 +9,7 @@ from matplotlib.figure import Figure
 from hydro1d.errors import DeckError
 from hydro1d.plot._base import (
     PALETTE,
+    RunOrPath,
     as_run,
     keep_in_view,
     legend,
@@ -25,10 +23,7 @@ from hydro1d.plot._base import (
 from hydro1d.plot._frames import along
 from hydro1d.plot._histories import MAX_ROWS, _bulk, extremes
 from hydro1d.plot._units import scale_for, words
-
-if TYPE_CHECKING:
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 QUANTITIES = ("right_stress", "left_velocity", "strain")
 

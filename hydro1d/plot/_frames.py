@@ -1,17 +1,11 @@
 """Where things are: in the material (Lagrangian) or in the laboratory."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from hydro1d.analysis.fronts import front_path
 from hydro1d.errors import DeckError
 from hydro1d.plot._units import Scale, scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 FRAMES = ("lagrangian", "laboratory")
 FRONTS = {"front_position": "proximal front", "distal_front_position": "distal front"}

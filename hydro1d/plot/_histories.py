@@ -1,9 +1,6 @@
 """What happens in time: ends, energies, fronts, probes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,13 +9,10 @@ from matplotlib.figure import Figure
 from hydro1d.analysis.fronts import front_path
 from hydro1d.analysis.transmission import pulse_of
 from hydro1d.errors import FileProblem
-from hydro1d.plot._base import GREY, as_run, heading, legend, name_of, new_figure
+from hydro1d.plot._base import GREY, RunOrPath, as_run, heading, legend, name_of, new_figure
 from hydro1d.plot._frames import FRONTS
 from hydro1d.plot._units import Scale, scale_for, words
-
-if TYPE_CHECKING:
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 # Panels that are drawn when nothing is asked for: the axis label, what is drawn in it.
 PANELS: dict[str, tuple[str, ...]] = {

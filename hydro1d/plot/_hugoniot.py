@@ -1,9 +1,8 @@
 """The plane of strain and stress: paths of zones over the law's curve and the Rayleigh line."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import matplotlib
 import numpy as np
@@ -11,10 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hydro1d.analysis.fronts import front_path
+from hydro1d.deck import Deck
 from hydro1d.plot._base import (
     GREY,
     PALETTE,
     SEQUENTIAL,
+    RunOrPath,
     as_run,
     heading,
     legend,
@@ -24,13 +25,7 @@ from hydro1d.plot._base import (
 )
 from hydro1d.plot._materials import curve, deck_of, loads_by_strain, strain_grid
 from hydro1d.plot._units import Scale, scale_for
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from hydro1d.deck import Deck
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 NO_CURVE = "no curve: the law is code of its user's; name the deck to have it run and drawn"
 PATHS = 3

@@ -1,20 +1,14 @@
 """A law by itself, without a run: loading, moduli, Hugoniot, energy."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hydro1d.errors import DeckError
+from hydro1d.laws.base import Law
 from hydro1d.plot._base import GREY, PALETTE, legend, new_figure
 from hydro1d.plot._materials import Hugoniot, curve, hugoniot_of, loads_by_strain, strain_grid, top_strain
 from hydro1d.plot._units import scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.laws.base import Law
 
 UNLOADINGS = 4
 

@@ -1,19 +1,15 @@
 """The laws of a run or a deck, and what their curves say."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from hydro1d.deck import Deck, load_deck
 from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError, Hydro1dError
-
-if TYPE_CHECKING:
-    from hydro1d.deck import Deck
-    from hydro1d.laws.base import Law
-    from hydro1d.store import Run
+from hydro1d.laws.base import Law
+from hydro1d.store import Run
 
 
 def deck_of(run: Run, deck: Deck | str | Path | None = None) -> Deck | None:
@@ -22,8 +18,6 @@ def deck_of(run: Run, deck: Deck | str | Path | None = None) -> Deck | None:
     None where the run's deck names Python files of its user: they are not run for a figure unless the user names the
     deck.
     """
-    from hydro1d.deck import Deck, load_deck
-
     if deck is not None:
         return deck if isinstance(deck, Deck) else load_deck(deck)
     kinds = [str(law.get("law", "")) for law in run.deck.get("material", {}).values()]

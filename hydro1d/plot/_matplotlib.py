@@ -4,16 +4,11 @@ Figures of hydro1d are written to files and need no backend, so one that matplot
 variable MPLBACKEND that a notebook hands to its commands names a backend of IPython's, which may not be installed.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from typing import Any
 
 
 def _load() -> None:
@@ -32,7 +27,7 @@ def _load() -> None:
 
 
 @contextmanager
-def without_latex(figure: Figure) -> Iterator[None]:
+def without_latex(figure: Any) -> Iterator[None]:
     """Draw the texts of a figure without LaTeX, which may not be installed and cannot set our labels (ε, ², %)."""
     import matplotlib
     from matplotlib.text import Text

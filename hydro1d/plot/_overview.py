@@ -1,29 +1,22 @@
 """The overview of a run: four panels in one figure."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
+from pathlib import Path
 from textwrap import fill
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from hydro1d.deck import Deck
 from hydro1d.errors import FileProblem
-from hydro1d.plot._base import GREY, as_run, heading, legend, new_figure
+from hydro1d.plot._base import GREY, RunOrPath, as_run, heading, legend, new_figure
 from hydro1d.plot._frames import length_label
 from hydro1d.plot._histories import END_STRESSES, clock_of, draw_history
 from hydro1d.plot._hugoniot import draw_hugoniot
 from hydro1d.plot._profiles import chosen_times, draw_profiles
 from hydro1d.plot._xt import draw_xt
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from hydro1d.deck import Deck
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 
 def overview(run: RunOrPath, deck: Deck | str | Path | None = None) -> tuple[Figure, np.ndarray]:

@@ -1,9 +1,7 @@
 """Profiles along the column at chosen times."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -13,6 +11,7 @@ from matplotlib.figure import Figure
 from hydro1d.plot._base import (
     GREY,
     SEQUENTIAL,
+    RunOrPath,
     as_run,
     heading,
     interfaces,
@@ -26,10 +25,7 @@ from hydro1d.plot._base import (
 )
 from hydro1d.plot._frames import along, check_frame, length_label, length_scale
 from hydro1d.plot._units import scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 QUANTITIES = ("stress", "strain", "velocity")
 SHOWN = 7

@@ -1,7 +1,5 @@
 """Units that people use: MPa, ms, mm, m/s; smaller or larger ones only where those would be unreadable."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 

@@ -1,8 +1,6 @@
 """The x-t diagram."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -13,6 +11,7 @@ from matplotlib.figure import Figure
 from hydro1d.plot._base import (
     DIVERGING,
     SEQUENTIAL,
+    RunOrPath,
     as_run,
     heading,
     interfaces,
@@ -23,10 +22,7 @@ from hydro1d.plot._base import (
 )
 from hydro1d.plot._frames import check_frame, fronts, length_label, length_scale
 from hydro1d.plot._units import scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 MAX_ZONES, MAX_TIMES = 800, 600  # more than that no page shows
 _LINES = {"proximal front": ("#ffffff", "-"), "distal front": ("#ffffff", "--")}

@@ -1,19 +1,15 @@
 """Arrays for the page's script: thinned, and packed as base64."""
 
-from __future__ import annotations
-
 import base64
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from hydro1d.plot._base import PALETTE
 from hydro1d.plot._histories import END_STRESSES, PANELS, applied_pressures, extremes, recorded
 from hydro1d.plot._units import Scale, scale_for, words
-
-if TYPE_CHECKING:
-    from hydro1d.report._theory import Theory
-    from hydro1d.store import Run
+from hydro1d.report._theory import Theory
+from hydro1d.store import Run
 
 MAX_TIMES, MAX_POINTS, MAX_ROWS = 100, 400, 1600
 THEORY_POINTS = 48

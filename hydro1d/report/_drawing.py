@@ -1,17 +1,13 @@
 """The column as a small SVG drawing."""
 
-from __future__ import annotations
-
 import html
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from hydro1d.plot._base import PALETTE
 from hydro1d.plot._units import scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 _WIDTH, _LEFT, _TOP, _HEIGHT = 860.0, 130.0, 34.0, 84.0
 _MIN_WIDTH = 26.0  # a layer thinner than this in the drawing would not be seen

@@ -1,21 +1,17 @@
 """The headline and the tables of numbers on the page."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from hydro1d.analysis.energy import elastic_energy
 from hydro1d.analysis.openings import find_openings
 from hydro1d.analysis.transmission import NOT_REACHED, Transmission, transmission_of
+from hydro1d.deck import Deck
 from hydro1d.errors import FileProblem
 from hydro1d.plot._base import name_of
 from hydro1d.plot._units import scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.deck import Deck
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 
 class Number(NamedTuple):

@@ -1,7 +1,5 @@
 """The page: its sections, tables and pictures, put together as one text of HTML."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import html
@@ -11,24 +9,19 @@ import os
 from collections.abc import Iterable, Sequence
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hydro1d import plot
+from hydro1d.deck import Deck
 from hydro1d.errors import FileProblem
-from hydro1d.plot._base import as_run
+from hydro1d.plot._base import RunOrPath, as_run
 from hydro1d.plot._materials import deck_of
 from hydro1d.plot._units import scale_for
 from hydro1d.report._data import page_data, shown_rows, telling_row
 from hydro1d.report._drawing import column_svg
 from hydro1d.report._numbers import Number, energy_numbers, headline, key_numbers, require_history
 from hydro1d.report._theory import Row, Theory, theory_or_reason
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from hydro1d.deck import Deck
-    from hydro1d.plot._base import RunOrPath
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 _PICTURES = (("stress", "lagrangian"), ("strain", "lagrangian"), ("velocity", "lagrangian"), ("stress", "laboratory"))
 
@@ -189,7 +182,7 @@ def _pictures(run: Run) -> str:
     return f'<div class="bar" id="pictures">{"".join(buttons)}</div>{"".join(figures)}'
 
 
-def _image(figure: Figure, text: str) -> str:
+def _image(figure: plot.Picture, text: str) -> str:
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=120)
     return (

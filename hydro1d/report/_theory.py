@@ -1,21 +1,17 @@
 """The closed-form answer to a deck, where there is one: one layer, loaded on the left from rest."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from hydro1d import analytic
 from hydro1d.analysis.fronts import front_path
 from hydro1d.analysis.theory import curve_of
+from hydro1d.analytic.compaction_column import CompactionColumn
 from hydro1d.plot._units import Scale, scale_for
-
-if TYPE_CHECKING:
-    from hydro1d.analytic.compaction_column import CompactionColumn
-    from hydro1d.store import Run
+from hydro1d.store import Run
 
 _DOI = "doi:10.1016/j.ijimpeng.2009.03.011"
 

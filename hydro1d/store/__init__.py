@@ -6,12 +6,12 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from hydro1d.store.checkpoint import Checkpoint, read_checkpoint, verify_checkpoint  # noqa: F401
-    from hydro1d.store.files import check_target  # noqa: F401
-    from hydro1d.store.layout import SCHEMA_VERSION, Layout  # noqa: F401
-    from hydro1d.store.memory import MemorySink  # noqa: F401
-    from hydro1d.store.run import Run, open_run  # noqa: F401
-    from hydro1d.store.writer import Hdf5Sink  # noqa: F401
+    from hydro1d.store.checkpoint import Checkpoint, read_checkpoint, verify_checkpoint
+    from hydro1d.store.files import check_target
+    from hydro1d.store.layout import SCHEMA_VERSION, Layout
+    from hydro1d.store.memory import MemorySink
+    from hydro1d.store.run import Run, open_run
+    from hydro1d.store.writer import Hdf5Sink
 
 _HOME = {
     "SCHEMA_VERSION": "layout",

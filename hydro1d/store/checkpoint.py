@@ -1,22 +1,18 @@
 """Checkpoints: all records so far and the whole state of the solver in one file, which needs no other."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from hydro1d.errors import FileProblem
 from hydro1d.store.layout import SCHEMA_VERSION
-
-if TYPE_CHECKING:
-    from hydro1d.store.recorder import Recorder
-    from hydro1d.store.source import FileSource
+from hydro1d.store.recorder import Recorder
+from hydro1d.store.source import FileSource
 
 LAW_HASH = "law_hash_"
 BOUNDARY_HASH = "boundary_hash_"
@@ -49,8 +45,6 @@ class Checkpoint:
 
 def read_checkpoint(path: str | os.PathLike[str]) -> Checkpoint:
     """Read a checkpoint. Raises FileProblem if it is not one, is truncated or damaged."""
-    from hydro1d.store.source import FileSource
-
     source = FileSource(path, check_schema=False)
     names = source.state_names()
     if not names or "checkpoint_time" not in source.attributes:

@@ -1,7 +1,5 @@
 """Files that appear complete or not at all: temporary names, renaming, checks of the target."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import platform

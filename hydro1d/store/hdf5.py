@@ -3,8 +3,6 @@
 The low-level interface of h5py is used because a file has some fifty datasets: it writes them in a third of the time.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterable, Mapping
 from typing import Any

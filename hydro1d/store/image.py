@@ -1,7 +1,5 @@
 """The file format put together: structure, blocks, attributes, seal."""
 
-from __future__ import annotations
-
 import json
 import os
 import zlib

@@ -1,9 +1,7 @@
 """Names, dimensions and units of everything in a file."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -44,7 +42,7 @@ class Layout:
     profiles: int | None = None
 
     @classmethod
-    def of(cls, column: Any) -> Layout:
+    def of(cls, column: Any) -> Self:
         """Layout of a `Column`."""
         return cls(
             node_coordinate=column.node_coordinate,

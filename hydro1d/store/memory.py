@@ -1,7 +1,5 @@
 """Results without a file: for sweeps and notebooks."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

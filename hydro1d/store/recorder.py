@@ -1,7 +1,5 @@
 """Recording: profiles, history rows and probes are copied into tables."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping
 from datetime import UTC, datetime

@@ -1,7 +1,5 @@
 """Tables that grow row by row in memory and are compressed in blocks."""
 
-from __future__ import annotations
-
 import functools
 import zlib
 from collections.abc import Iterable

@@ -7,8 +7,6 @@ follows its data, so that every other tool reads a sealed file; a tool that rewr
 Layout: the HDF5 data; pairs (offset, size) of the sealed byte ranges, 64-bit; then the footer (see `_FOOTER`).
 """
 
-from __future__ import annotations
-
 import os
 import struct
 import zlib

@@ -1,7 +1,5 @@
 """Threads beside the time loop, which holds no interpreter lock while it computes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 

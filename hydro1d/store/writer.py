@@ -6,8 +6,6 @@ result is the working file itself, completed. Whatever appears under a name that
 name, synced and renamed, so that a killed run leaves complete, readable files.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import os
@@ -17,7 +15,7 @@ import weakref
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -75,7 +73,7 @@ class Hdf5Sink(Recorder):
         resolved: Mapping[str, Any],
         attributes: Mapping[str, Any] | None = None,
         **options: Any,
-    ) -> Hdf5Sink:
+    ) -> Self:
         """A sink that starts with everything that was recorded up to `checkpoint`."""
         sink = cls(path, layout, deck_text, resolved, attributes, **options)
         try:
@@ -160,7 +158,7 @@ class Hdf5Sink(Recorder):
             self._finalizer()
         self._working = None
 
-    def __enter__(self) -> Hdf5Sink:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(

@@ -10,25 +10,5 @@ from hydro1d.sweep.plan import Parameter, Sweep
 from hydro1d.sweep.run import run_sweep
 from hydro1d.sweep.table import Column, Table, read_table
 
-__all__ = [
-    "Column",
-    "Critical",
-    "Flip",
-    "Job",
-    "NoFlip",
-    "Outcome",
-    "Parameter",
-    "Quantity",
-    "Sweep",
-    "Table",
-    "critical",
-    "evaluate",
-    "find_flip",
-    "load_sweep",
-    "parse_outcome",
-    "parse_quantity",
-    "quantity_names",
-    "read_table",
-    "run_sweep",
-    "trace",
-]
+# All classes and functions that are imported above.
+__all__ = sorted(name for name, item in globals().items() if hasattr(item, "__module__") and name[0] != "_")

@@ -1,7 +1,5 @@
 """The base deck of a study, and values of its keys as SI numbers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path

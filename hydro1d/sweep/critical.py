@@ -1,13 +1,11 @@
 """The value of one deck key at which an outcome flips, alone or along a second key."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from hydro1d.analysis.outcome import parse_outcome
 from hydro1d.analysis.transmission import NOT_REACHED
@@ -37,7 +35,7 @@ class Search:
     spacing: str
     units: str = ""
 
-    def at(self, key: str, value: Any) -> Search:
+    def at(self, key: str, value: Any) -> Self:
         """The same search with one more key set."""
         return replace(self, overrides=(*self.overrides, override(key, value)))
 

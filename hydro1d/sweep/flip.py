@@ -1,7 +1,5 @@
 """Bisection for the number at which a yes/no answer changes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """One run of many: from a base deck and overrides to a row of numbers. Picklable, so it can run anywhere."""
 
-from __future__ import annotations
-
 import json
 import threading
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """What an interrupted sweep leaves: finished rows, one JSON line each, so that nothing is run twice."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -1,7 +1,5 @@
 """SWEEP.toml. Mistakes are reported as for a deck: all in one message, each with its line."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -9,8 +7,8 @@ from typing import Any, TypeVar
 from pydantic import Field, ValidationError
 
 from hydro1d.components.parameters import Component
-from hydro1d.deck.messages import Finding, deck_error, findings_of
-from hydro1d.deck.positions import Location, Positions
+from hydro1d.deck.messages import Finding, Location, deck_error, findings_of
+from hydro1d.deck.positions import Positions
 from hydro1d.deck.read import parse, read_text
 from hydro1d.errors import DeckError, FileProblem, Problem
 from hydro1d.sweep.base import base_data, check_key

@@ -1,13 +1,11 @@
 """A sweep: a base deck, parameters, quantities, how they combine, and what must fit together."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 from pydantic import Field, field_validator, model_validator
@@ -50,7 +48,7 @@ class Parameter(Component):
         return key
 
     @model_validator(mode="after")
-    def _list_or_range(self) -> Parameter:
+    def _list_or_range(self) -> Self:
         has_range = self.first is not None and self.last is not None
         if (self.values is None) == (not has_range):
             raise ValueError("needs either values, a list, or a range with first and last")
@@ -130,7 +128,7 @@ class Sweep:
         samples: int | None = None,
         seed: int = 0,
         title: str = "",
-    ) -> Sweep:
+    ) -> Self:
         """A sweep of a deck's file, text or data. Raises DeckError with everything that is wrong."""
         data, folder = base_data(base)
         sweep = cls(data, folder, tuple(parameters), tuple(quantities), tuple(overrides), plan, samples, seed, title)

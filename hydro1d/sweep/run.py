@@ -1,7 +1,5 @@
 """Running a sweep: on threads of this machine, or on any executor of concurrent.futures."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -1,7 +1,5 @@
 """A table of results: one HDF5 file and one CSV file, the same bytes for the same rows."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -1,10 +1,9 @@
 """What a case of the verification suite is."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Self
 
 from hydro1d.verify.rows import Table
 
@@ -35,7 +34,7 @@ class Case:
     study: Callable[[Table, Effort], None]
 
     @classmethod
-    def of(cls, name: str, title: str, rows: int, study: Callable[[Table, Effort], None]) -> Case:
+    def of(cls, name: str, title: str, rows: int, study: Callable[[Table, Effort], None]) -> Self:
         """A case about which the docstring of its study says what there is to say."""
         told = inspect.getdoc(getattr(study, "func", study)) or ""
         return cls(name, title, " ".join(told.split()), rows, study)

@@ -1,7 +1,5 @@
 """What a series of runs, or of values in time, shows: orders, limits, means and crossings."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,7 +1,5 @@
 """Figures of the report as inline SVG, drawn by matplotlib without a display."""
 
-from __future__ import annotations
-
 import io
 import re
 from typing import Any

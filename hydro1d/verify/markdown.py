@@ -1,7 +1,5 @@
 """The documentation's page of results, generated: a line a case, and what each case is."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from importlib import resources

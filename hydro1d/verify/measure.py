@@ -1,7 +1,5 @@
 """Runs and what is measured on them: plateaus, fronts, norms, orders."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 

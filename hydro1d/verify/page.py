@@ -1,7 +1,5 @@
 """The report as one HTML page that asks nothing of the network."""
 
-from __future__ import annotations
-
 import html
 import math
 import platform

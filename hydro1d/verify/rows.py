@@ -1,7 +1,5 @@
 """The rows of the verification table and the curves of its figures: what a case returns."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field

@@ -1,7 +1,5 @@
 """The suite: its cases, how they are run, and the count that makes a case that did not run a failure."""
 
-from __future__ import annotations
-
 import importlib
 import time
 import traceback

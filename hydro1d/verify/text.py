@@ -1,7 +1,5 @@
 """The rows of the suite as a table in plain text."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

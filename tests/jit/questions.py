@@ -145,8 +145,30 @@ def counting(x):
     return x
 """,
 }
-LAST = """constant helper helper_of_helper default closure compiled compiled_of_module array array_of_module columns
-strided triple pair nested function_of_tuple chain function_of_chain renamed member chosen power mathematics""".split()
+LAST = [
+    "constant",
+    "helper",
+    "helper_of_helper",
+    "default",
+    "closure",
+    "compiled",
+    "compiled_of_module",
+    "array",
+    "array_of_module",
+    "columns",
+    "strided",
+    "triple",
+    "pair",
+    "nested",
+    "function_of_tuple",
+    "chain",
+    "function_of_chain",
+    "renamed",
+    "member",
+    "chosen",
+    "power",
+    "mathematics",
+]
 PERISH = ("large", "gamma", "exponent", "foreign")
 REFUSED = {
     "printing": "questions.printing: it makes an object",

@@ -245,8 +245,8 @@ def test_what_cannot_be_known_is_said_stored_and_not_gone_on_from(folder):
     with pytest.raises(FileProblem, match="law of material foam: whether its code has changed cannot be known"):
         hydro1d.run(folder / "deck.toml", folder / "on.h5", restart=checkpoint)
     assert (
-        "complete"
-        == hydro1d.run(folder / "deck.toml", folder / "on.h5", restart=checkpoint, force=True).attributes["status"]
+        hydro1d.run(folder / "deck.toml", folder / "on.h5", restart=checkpoint, force=True).attributes["status"]
+        == "complete"
     )
 
 

@@ -1,7 +1,5 @@
 """What is asked of a chain: the same pulse, other questions, other masses."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple

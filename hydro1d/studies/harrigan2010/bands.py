@@ -5,8 +5,6 @@ boundary stays one line. With half a mass at the loaded end, as in the solver's 
 and above 6 MPa, where springs are so hard that a meeting takes no time, the outcome hangs on every one of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

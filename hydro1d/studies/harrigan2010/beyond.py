@@ -1,7 +1,5 @@
 """What the paper does not show: the support stress for growing P, its map, and where the energy goes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

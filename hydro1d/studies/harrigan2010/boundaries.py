@@ -1,7 +1,5 @@
 """Fig. 6: the boundary in (duration, pressure) by every model, by both criteria."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple

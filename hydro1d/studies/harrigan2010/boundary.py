@@ -4,8 +4,6 @@ Both criteria are asked of the same runs. A run ends when nothing can happen any
 a wall that bears at least σP takes it out by T P/σP after the first wave has reached it, L/c0; a quarter is added.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor

@@ -4,8 +4,6 @@ The solver's own chain has half a mass at the loaded end. Springs are known by t
 collide down to a room of 1e-10, which a strain near 1 could not tell.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Figs. 1, 8 and 9: the curves, and the compaction Hugoniot that they imply."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ the distal block still moves at VY, and the paper sets this kinetic energy again
 along the quasi-static curve, σP (εD - εY). Here that comparison is made at every pressure, as a boundary.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The foam of the paper's Table 1 and the curves that stand for it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

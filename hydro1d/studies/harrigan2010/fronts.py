@@ -1,7 +1,5 @@
 """Fronts of both schools: their speeds, and the stresses in them while nothing but the front has reached the support."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

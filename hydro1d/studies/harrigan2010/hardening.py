@@ -1,7 +1,5 @@
 """What β and γ of Eq. 38, which the paper does not print, could be, and what that does to the boundaries."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple

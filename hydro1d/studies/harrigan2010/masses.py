@@ -1,7 +1,5 @@
 """Fig. 12: ten masses without viscosity, and the same foam and load at many zones with it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

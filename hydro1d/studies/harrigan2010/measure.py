@@ -1,7 +1,5 @@
 """What the figures read off a run's file."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hydro1d.store import Run

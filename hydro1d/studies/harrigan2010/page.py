@@ -1,7 +1,5 @@
 """index.html: every figure and number on one self-contained page."""
 
-from __future__ import annotations
-
 import base64
 import html
 import math

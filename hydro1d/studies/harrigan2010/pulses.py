@@ -3,8 +3,6 @@
 As in the paper, positions are measured from the support: the loaded end starts at 1 m.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Every figure and number of the paper, in the order of the paper."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from concurrent.futures import Executor, ThreadPoolExecutor

@@ -5,8 +5,6 @@ with steps that follow the stiffest spring and the shortest time to a collision.
 chain has half a mass at the loaded end; here that is a choice.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Callable, Sequence
@@ -148,7 +146,12 @@ def _marching() -> Callable[[Masses], object]:
         return lambda m: march(m._replace(told=m.told[0]))
     request = build.Request("chain of rooms", lambda _copies: march, lambda: reach.digest(march), is_leaf=False)
     run = build.function(build.address(request, SHARED))
-    return lambda m: run(build.table(m, SHARED.fields).ctypes.data)
+
+    def marched(m: Masses) -> None:
+        table = build.table(m, SHARED.fields)  # must outlive the call, during which other threads ask for memory
+        run(table.ctypes.data)
+
+    return marched
 
 
 def stress_and_stiffness(room: float, told: Any) -> tuple[float, float]:

@@ -1,7 +1,5 @@
 """Fig. 5: the mass-spring boundary in (τd, p), and what the number of masses does to it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Fig. 3: the length of column that a striker just fully crushes."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

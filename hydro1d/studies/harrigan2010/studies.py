@@ -1,7 +1,5 @@
 """How sure we are: resolution, viscosity, hardening, and the mass-spring chain's own dependences."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Where figures are made: runs as HDF5 files, tables, numbers, and the pictures drawn from them."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math
@@ -11,7 +9,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -159,7 +157,7 @@ class Workshop:
             writer.writerow([item.figure, item.quantity, *values, item.unit, change, item.note])
         (self.folder / "numbers.csv").write_text(out.getvalue(), encoding="utf-8")
 
-    def timed(self, label: str, work: Callable[[Workshop], None]) -> None:
+    def timed(self, label: str, work: Callable[[Self], None]) -> None:
         """Do a part of the work and say how long it took."""
         begun = time.perf_counter()
         work(self)

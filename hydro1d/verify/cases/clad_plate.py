@@ -1,7 +1,5 @@
 """A cladding plate on R-P-P-L under pulses: u(t) in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hydro1d.analytic import RPPL, CladColumn, ExponentialPulse, Pulse, TriangularPulse

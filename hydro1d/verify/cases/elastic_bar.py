@@ -1,7 +1,5 @@
 """Two bonded elastic bars: reflection, transmission, arrival, and a pulse that must not disperse."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

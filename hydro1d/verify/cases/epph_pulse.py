@@ -1,7 +1,5 @@
 """The E-P-P-H pulse of the paper (p = 4.5, T = 1.53 ms): Eqs. 39–47, and how finite unloading moduli differ."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

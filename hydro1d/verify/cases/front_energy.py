@@ -1,7 +1,5 @@
 """Energy across a front: what a shock absorbs, what the curve alone would, and that q makes up the difference."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import NamedTuple
 

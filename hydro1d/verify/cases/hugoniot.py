@@ -1,7 +1,5 @@
 """Figs. 8 and 9 of the paper by many runs: strain and shock speed against the velocity jump."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The materials of the cases: each law of the solver with the exact curve that it stands for."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

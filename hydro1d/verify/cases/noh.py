@@ -1,7 +1,5 @@
 """Planar Noh: cold gas against a wall."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hydro1d.analytic import Noh

@@ -1,7 +1,5 @@
 """Riemann problems of ideal gases: Sod, two gases, and Toro's second and third tests."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """A striker on R-PH foam: a decaying shock with hardening, at finite moduli and in the rigid limit."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hydro1d import analytic

@@ -1,7 +1,5 @@
 """A rectangular pulse on R-P-P-L (p = 4.5, T = 1.53 ms): Eqs. 25–30, at finite stiffness and in the rigid limit."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A striker on R-P-P-L: Eqs. 8, 9, 12, 13, at a finite stiffness K and in the limit K → ∞."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

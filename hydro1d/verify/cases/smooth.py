@@ -1,7 +1,5 @@
 """A smooth isentropic compression: the order of the scheme itself, in space and time."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hydro1d.analytic import SimpleWave

@@ -1,7 +1,5 @@
 """Pressure step and piston on every foam law with a shock: Eqs. 31–37 behind a steady compaction front."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """What no discretisation may break: conservation, mirror, Galilean shift, the choice of units."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hydro1d.boundaries.base import Boundary

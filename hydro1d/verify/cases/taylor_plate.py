@@ -1,7 +1,5 @@
 """Taylor's free plate: an exponential pulse in an elastic medium meets a plate that it accelerates and then leaves."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hydro1d.analytic import TaylorPlate
