@@ -219,7 +219,8 @@ def said(question: Callable[[float], float]) -> float | str:
 
 if __name__ == "__main__":
     notes: list[str] = []
+    compiled: list[str] = []
     module = questions(Path(sys.argv[1]))
-    with build.noting(notes.append):
+    with build.noting(notes.append), build.announcing(compiled.append):
         answers = {name: said(getattr(module, name)) for name in sys.argv[2:]}
-    print(json.dumps({"answers": answers, "notes": notes, "compiled": "numba.core" in sys.modules}))
+    print(json.dumps({"answers": answers, "notes": notes, "compiled": bool(compiled)}))

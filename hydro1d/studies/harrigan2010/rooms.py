@@ -85,9 +85,10 @@ def follow(chain: Chain, pressure: float, duration: float, end: float, until_set
     told.beta, told.rate, told.start, told.plastic = chain.beta, rate, start, chain.plastic
     told.min_stress, told.lock, told.cfl = -math.inf if chain.pulls else 0.0, chain.lock, chain.cfl
     told.pressure, told.duration, told.end, told.until_settled = pressure, duration, end, until_settled
-    room, least, rest = np.ones(chain.masses), np.ones(chain.masses), np.zeros((3, chain.masses + 1))
+    room, least = np.ones(chain.masses), np.ones(chain.masses)
+    velocity, stress, rigid = np.zeros((3, chain.masses + 1))
     out = np.full(len(Story._fields), math.nan)
-    _marching()(Masses(told, mass, room, least, *rest, out, chain.masses))
+    _marching()(Masses(told, mass, room, least, velocity, stress, rigid, out, chain.masses))
     return Story(*out.tolist())
 
 
