@@ -139,6 +139,10 @@ def _read_restart(deck: Deck, column: Column, program: Program, path: Path, forc
     from hydro1d.store import read_checkpoint, verify_checkpoint
 
     checkpoint = read_checkpoint(path)
+    if "clock" not in checkpoint.arrays:
+        raise FileProblem(
+            f"cannot carry on from {path}: it was written by a version before 0.2; run the deck from its start"
+        )
     laws, ends = _code_hashes(deck)
     verify_checkpoint(checkpoint, deck.resolved(), laws, force, ends)
     return checkpoint, _state_of(column, program, checkpoint.arrays, path)

@@ -96,7 +96,7 @@ def _emit(text: str, is_integer: list[bool], is_leaf: bool) -> MachineCode | Non
     module = llvm.parse_assembly(_with_entry(text, native, is_integer, is_leaf))
     machine = target_machine()
     tuning = llvm.create_pipeline_tuning_options(speed_level=3)
-    tuning.loop_vectorization = tuning.loop_interleaving = is_leaf
+    tuning.loop_vectorization = tuning.loop_interleaving = True
     tuning.inlining_threshold = 10_000 if is_leaf else 225
     passes = llvm.create_pass_builder(machine, tuning)
     for function in module.functions:
