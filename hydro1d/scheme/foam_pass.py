@@ -22,8 +22,8 @@ SHORT = 256  # zones; in a column no longer than this the front is a large share
 class Part(NamedTuple):
     """Zones [first, beyond) of a layer, within a block that begins at zone `block`, and what is the same for all of them.
 
-    own: inverse size (1/m) and inverse mass (m²/kg) of each; kick, s; c₁ where the foam crushes, c₁ where the jump is limited,
-    and c₂.
+    own: inverse size (1/m) and inverse mass (m²/kg) of each; kick, s, and half of it over the mass; density, kg/m³, and its
+    inverse; c₁ where the foam crushes, c₁ where the jump is limited, and c₂. All of it is found once for all chunks.
     """
 
     layer: int
@@ -32,6 +32,9 @@ class Part(NamedTuple):
     beyond: int
     own: tuple[float, float]
     kick: float
+    to_kick: float
+    density: float
+    per_density: float
     linear: float
     limited_linear: float
     quadratic: float
@@ -55,10 +58,11 @@ def foam_pass(law_at: Callable, kind: Kind, _first_row: int, _count: tuple) -> C
         layer = at(g.layers, number)
         law, own = law_at(g, number, start), scales(g, layer, start, True)
         if only_observe > 0:
-            observe(g, law, Part(number, start, start, end, own, 0.0, 0.0, 0.0, 0.0))
+            observe(g, law, Part(number, start, start, end, own, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
             return
         kick, linear, limited_linear, quadratic = g.call.kick, layer.linear, layer.limited_linear, layer.quadratic
-        is_fresh = g.call.is_fresh
+        is_fresh, to_kick, density = g.call.is_fresh, 0.5 * kick * own[1], law.density
+        per_density = 1.0 / density
         top_stiffness, top_speed, top_stress, top_strain, power = 0.0, 0.0, 0.0, 0.0, 0.0
         chunk = CHUNK if end - start > SHORT else CHUNK // 2
         for first in range(start, end, chunk):
@@ -77,7 +81,20 @@ def foam_pass(law_at: Callable, kind: Kind, _first_row: int, _count: tuple) -> C
                     # No zone's stress is ever above its loading curve, nor its strain above its largest.
                     top_stress = larger(top_stress, g.curve[i])
                     top_strain = larger(top_strain, g.state[i])
-            part = Part(number, start, first, beyond, own, kick, linear, limited_linear, quadratic)
+            part = Part(
+                number,
+                start,
+                first,
+                beyond,
+                own,
+                kick,
+                to_kick,
+                density,
+                per_density,
+                linear,
+                limited_linear,
+                quadratic,
+            )
             if limited or turned:
                 stiffness, speed, work = push_unlike(g, law, part, limited, turned)
             else:
@@ -109,7 +126,8 @@ def foam_pass(law_at: Callable, kind: Kind, _first_row: int, _count: tuple) -> C
         top_stiffness, top_speed, power = 0.0, 0.0, 0.0
         for i in range(part.first, part.beyond):
             here = law_of(g, law, number, i)
-            per_density = 1.0 / here.density
+            per_density = part.per_density if one_law else 1.0 / here.density
+            density = part.density if one_law else here.density
             per_size, per_mass = scales_of(g, part.own, number, i)
             if turned:
                 linear = part.limited_linear if here.never_yielded(g.state[i]) else part.linear
@@ -117,7 +135,7 @@ def foam_pass(law_at: Callable, kind: Kind, _first_row: int, _count: tuple) -> C
                 g.stiffnesses[i] = here.slope_below(g.state[i], g.tangents[i])
             jump = g.velocity[i + 1] - g.velocity[i + 2]
             jump_before = g.velocity_before[i - block + 1] - g.velocity_before[i - block + 2]
-            g.increment[i] += g.force[i] * (0.5 * kick * per_mass) * (jump_before + jump)
+            g.increment[i] += g.force[i] * (part.to_kick if one_size else 0.5 * kick * per_mass) * (jump_before + jump)
             power = accumulate(power, g.viscosity[i] * (jump_before + jump))
             strain = (g.displacement[i] - g.displacement[i + 1]) * per_size
             stress = here.stress_below(g.state[i] - strain, g.curve[i], g.stiffnesses[i])
@@ -125,7 +143,7 @@ def foam_pass(law_at: Callable, kind: Kind, _first_row: int, _count: tuple) -> C
             if limited:
                 compression -= smooth_jump(g.velocity, i, jump) if here.never_yielded(g.state[i]) else 0.0
             speed, bound = viscous_speeds(here, part.quadratic, strain, compression, g.speeds[i])
-            g.viscosity[i] = 0.0 if here.is_open(stress) else here.density * compression * speed
+            g.viscosity[i] = 0.0 if here.is_open(stress) else density * compression * speed
             g.force[i] = stress + g.viscosity[i]
             power = accumulate(power, 0.0 * g.force[i])
             top_stiffness = larger(top_stiffness, g.stiffnesses[i] * per_density)
