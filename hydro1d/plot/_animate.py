@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from hydro1d.errors import DeckError, FileProblem, Hydro1dError
-from hydro1d.plot._base import PALETTE, RunOrPath, as_run, heading, new_figure, profile_quantity, scaled, times_of
+from hydro1d.plot._base import PALETTE, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, heading, profile_quantity, scaled, times_of
 from hydro1d.plot._frames import along, check_frame, length_label, length_scale
 from hydro1d.plot._profiles import QUANTITIES
 from hydro1d.plot._units import scale_for

@@ -14,7 +14,7 @@ from typing import Any
 from hydro1d import plot
 from hydro1d.deck import Deck
 from hydro1d.errors import FileProblem
-from hydro1d.plot._base import RunOrPath, as_run
+from hydro1d.plot._data import RunOrPath, as_run
 from hydro1d.plot._materials import deck_of
 from hydro1d.plot._units import scale_for
 from hydro1d.report._data import page_data, shown_rows, telling_row
