@@ -55,14 +55,12 @@ def run(args: argparse.Namespace) -> None:
 
 def _written(found: Tabulated, source: Path, target: Path) -> list[str]:
     """Write the table; what to say of it. Raises FileProblem where it would destroy the measured curve or a result."""
-    from hydro1d.errors import FileProblem
+    from hydro1d.errors import FileProblem, file_problems
 
     if target.exists() and target.samefile(source):
         raise FileProblem(f"cannot write {target}: it is the measured curve; choose another name")
-    try:
+    with file_problems("write", target):
         _common.refuse_result(target).write_text(found.csv())
-    except OSError as error:
-        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
     return [
         *(f"note: {text}" for text in found.notes),
         f"table: {target}, {len(found.points)} points behind an elastic line of {found.modulus / 1e6:.5g} MPa; "

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hydro1d.errors import DeckError, FileProblem
+from hydro1d.errors import DeckError, file_problems
 from hydro1d.plot._matplotlib import without_latex
 
 # Okabe & Ito's colours, told apart by colour-blind readers; black is for laws and theory.
@@ -96,9 +96,6 @@ def save(figure: Figure, path: str | os.PathLike[str], dpi: int = 150) -> Path:
     if target.suffix.lower() not in FORMATS:
         raise DeckError(f"{target}: a figure's name ends in {', '.join(FORMATS)}")
     dates = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(target.suffix.lower())
-    try:
-        with matplotlib.rc_context({"svg.hashsalt": "hydro1d"}):
-            figure.savefig(target, dpi=dpi, metadata=dates)
-    except OSError as error:
-        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
+    with file_problems("write", target), matplotlib.rc_context({"svg.hashsalt": "hydro1d"}):
+        figure.savefig(target, dpi=dpi, metadata=dates)
     return target

@@ -42,7 +42,7 @@ from hydro1d.studies.harrigan2010.workshop import QUICK, Workshop, columns, new_
 drawing, axes = new_figure()
 axes.plot([0, 1], [0, 1], label="σ, 1 %")
 axes.legend()
-Workshop(Path("."), QUICK).picture("fig1", "title", "caption", drawing, columns(a=[0.0, 1.0]))
+Workshop(Path("."), QUICK).picture("fig01", drawing, columns(a=[0.0, 1.0]))
 
 from hydro1d.verify.figures import svg
 from hydro1d.verify.rows import Line, Panel
