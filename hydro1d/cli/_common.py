@@ -90,13 +90,20 @@ def positive(text: str) -> int:
     return int(text)
 
 
+def add_threads(parser: argparse.ArgumentParser, what: str = "runs") -> None:
+    """How much is done at a time."""
+    parser.add_argument(
+        "--threads", metavar="N", type=positive, help=f"{what} at a time; default: the processors there are"
+    )
+
+
 def quantity(text: str, unit: str, option: str) -> float:
     """A number, or a text with a unit, in the SI unit. Raises DeckError, naming the option."""
-    from hydro1d.components.units import convert, is_number
+    from hydro1d.components.units import convert, plain
     from hydro1d.errors import DeckError
 
     try:
-        return convert(float(text) if is_number(text) else text, unit)
+        return convert(plain(text), unit)
     except ValueError as error:
         raise DeckError(f"{option}: {error}") from error
 

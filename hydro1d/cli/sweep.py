@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="FILE", type=Path,
         help="table as HDF5, with a CSV file beside it; default: the sweep's name with .h5, here",
     )  # fmt: skip
-    parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
+    _common.add_threads(parser)
     parser.add_argument("--scheduler", metavar="ADDRESS", help="run on the Dask cluster of this scheduler")
     parser.add_argument("--fresh", action="store_true", help="begin anew, whatever an interrupted sweep has left")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
@@ -38,8 +38,6 @@ def run(args: argparse.Namespace) -> int:
     from hydro1d.sweep import load_sweep, run_sweep
     from hydro1d.sweep.table import check_text_target
 
-    if args.threads is not None and args.threads < 1:
-        raise DeckError(f"--threads {args.threads}: at least 1")
     sweep = load_sweep(args.sweep)
     output = args.output or Path(args.sweep.stem + ".h5")
     if output.suffix == ".csv":
