@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-if TYPE_CHECKING:
-    from pathlib import Path
+from hydro1d.errors import file_problems
 
+if TYPE_CHECKING:
     from hydro1d.deck import Deck
     from hydro1d.store import Run
 
@@ -24,7 +25,6 @@ class JsonLog:
 
     def __init__(self, target: Path) -> None:
         from hydro1d.cli._common import refuse_result
-        from hydro1d.errors import file_problems
 
         self._began = self._last = time.monotonic()
         self.on_standard_output = str(target) == "-"

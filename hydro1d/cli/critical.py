@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydro1d.cli import _common
+from hydro1d.errors import DeckError
 
 if TYPE_CHECKING:
     from hydro1d.sweep import Critical
@@ -40,7 +41,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> None:
     """Search, print, write."""
     from hydro1d.components.units import plain
-    from hydro1d.errors import DeckError
     from hydro1d.sweep.critical import boundary_table, critical, evaluations_table, trace
     from hydro1d.sweep.table import check_text_target
 
@@ -89,7 +89,6 @@ def _row(point: Critical) -> str:
 def _values(text: str) -> list[Any]:
     """``A, B, C`` or ``FIRST:LAST:COUNT``."""
     from hydro1d.components.units import plain
-    from hydro1d.errors import DeckError
     from hydro1d.sweep.plan import Parameter
 
     parts = text.split(":")

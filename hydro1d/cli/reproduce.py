@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from hydro1d.cli import _common
+from hydro1d.errors import DeckError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,7 +25,6 @@ def run(args: argparse.Namespace) -> None:
     """Make the figures and the page."""
     from hydro1d.cli.sweep import executor_at
     from hydro1d.deck.messages import one_of
-    from hydro1d.errors import DeckError
     from hydro1d.studies.harrigan2010.reproduce import PARTS, reproduce
 
     names = [name for name, _ in PARTS]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hydro1d.cli import _common
+from hydro1d.errors import BreakdownError, DeckError, FileProblem
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -33,7 +34,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Check, run, write HDF5 and CSV; 3 if every run broke down."""
-    from hydro1d.errors import BreakdownError, DeckError
     from hydro1d.store import check_target
     from hydro1d.sweep import load_sweep, run_sweep
     from hydro1d.sweep.table import check_text_target
@@ -82,7 +82,6 @@ def executor_at(address: str | None) -> Iterator[Executor | None]:
     if address is None:
         yield None
         return
-    from hydro1d.errors import DeckError, FileProblem
 
     try:
         from distributed import Client

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from hydro1d.cli import _common
+from hydro1d.errors import DeckError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +27,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the suite; 1 if any row fails."""
     from hydro1d.deck.messages import suggestion
-    from hydro1d.errors import DeckError
     from hydro1d.verify.suite import chosen
 
     cases = chosen(args.only)

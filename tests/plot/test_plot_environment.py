@@ -82,5 +82,5 @@ def test_figures_are_drawn_whatever_is_asked_of_matplotlib(result, tmp_path, var
     )
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
-    made = [f"plot.{figure}", f"fit.{figure}", f"law.{figure}", "coarse-animate.gif", "report.html", "fig1.png"]
+    made = [f"plot.{figure}", f"fit.{figure}", f"law.{figure}", "coarse-animate.gif", "report.html", "fig01.png"]
     assert all((tmp_path / name).stat().st_size > 1000 for name in made)
