@@ -180,7 +180,7 @@ def _pictures(run: Run) -> str:
     return f'<div class="bar" id="pictures">{"".join(buttons)}</div>{"".join(figures)}'
 
 
-def _image(figure: plot.Picture, text: str) -> str:
+def _image(figure: Any, text: str) -> str:
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=120)
     return (

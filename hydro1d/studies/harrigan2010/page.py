@@ -55,8 +55,8 @@ def _table(numbers: list[Number]) -> str:
     head += "<th class='n'>paper</th><th class='n'>equations</th><th class='n'>solver</th><th>unit</th>"
     rows = [f"<table>{head}<th class='n'>difference</th><th>note</th></tr>"]
     for item in numbers:
-        numbers = ("" if math.isnan(x) else f"{x:.5g}" for x in (item.paper, item.equations, item.solver))
-        cells = "".join(f"<td class='n'>{number}</td>" for number in numbers)
+        shown = ("" if math.isnan(x) else f"{x:.5g}" for x in (item.paper, item.equations, item.solver))
+        cells = "".join(f"<td class='n'>{number}</td>" for number in shown)
         change = "" if math.isnan(item.difference) else f"{100 * item.difference:+.3g} %"
         unit = html.escape(item.unit if item.unit != "1" else "")
         rows.append(
