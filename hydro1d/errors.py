@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -56,6 +58,15 @@ class FileProblem(Hydro1dError):
     """A file that cannot be read or written, or is not what it should be."""
 
     exit_code = 4
+
+
+@contextmanager
+def file_problems(action: str, path: object) -> Iterator[None]:
+    """Say what the system has against a file as one `FileProblem`: "cannot write run.png: no space left on device"."""
+    try:
+        yield
+    except OSError as error:
+        raise FileProblem(f"cannot {action} {path}: {error.strerror or error}") from error
 
 
 class LibraryProblem(Hydro1dError):

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from hydro1d.analysis.quantity import Quantity, applied_peak, parse_quantity, quantity_names, support_side
-from hydro1d.components.units import UnitError, convert
+from hydro1d.components.units import convert, plain
 from hydro1d.deck import Deck
 from hydro1d.deck.messages import suggestion
 from hydro1d.errors import DeckError
@@ -85,15 +85,6 @@ def parse_outcome(text: str) -> Outcome:
         raise DeckError(f"{word[:80]!r} is not an outcome{near}; allowed: {allowed}")
     try:
         quantity = parse_quantity(match["quantity"])
-        return Outcome(word, quantity, match["sign"], _bound(match["value"], quantity.units))
+        return Outcome(word, quantity, match["sign"], convert(plain(match["value"]), quantity.units))
     except ValueError as error:
         raise DeckError(f"{word[:80]!r} is not an outcome: {error}") from None
-
-
-def _bound(text: str, units: str) -> float:
-    try:
-        return convert(float(text), units)
-    except UnitError:
-        raise
-    except ValueError:
-        return convert(text, units)

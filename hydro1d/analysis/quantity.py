@@ -14,7 +14,7 @@ from hydro1d.analysis.energy import elastic_energy
 from hydro1d.analysis.fronts import front_arrival
 from hydro1d.analysis.transmission import ends_of, transmitted_stress
 from hydro1d.components.plugins import builtin_names, find
-from hydro1d.components.units import UnitError, convert, is_number
+from hydro1d.components.units import UnitError, convert, plain
 from hydro1d.deck import Deck
 from hydro1d.deck.messages import one_of, suggestion
 from hydro1d.store import Run
@@ -228,7 +228,7 @@ def _boundary_columns() -> dict[str, str]:
 
 def _arrival(name: str, argument: str) -> Quantity:
     try:
-        position = convert(float(argument) if is_number(argument) else argument, "m")
+        position = convert(plain(argument), "m")
     except UnitError as error:
         raise ValueError(f"{name} takes a Lagrangian position such as 0.5 m: {error}") from None
     columns, what = _ARRIVALS[name]

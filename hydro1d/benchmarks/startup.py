@@ -8,28 +8,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-DECK = """title = "Rectangular pulse, E-P-P-H"
-[material.foam]
-law = "epph"
-density = 51.6
-modulus = 22e6
-plateau_stress = 0.8e6
-densification_strain = 0.689
-shock_slope = 0.00105
-[[layer]]
-material = "foam"
-thickness = 1
-zones = 1000
-[left]
-type = "pressure"
-pulse = "rectangular"
-peak = 3.6e6
-duration = 1.53e-3
-[right]
-type = "wall"
-[time]
-end = 8e-3
-"""
 OUTPUT = "[output]\nprofiles = 200\nhistory = 10\nprobes = [0.25, 0.5]\n"
 BARE = "[output]\nprofiles = [0.0]\nhistory = 1000000000\n"  # as little as a deck can ask for
 COMMAND = "from hydro1d.cli import main; raise SystemExit(main())"
@@ -38,9 +16,10 @@ COMMAND = "from hydro1d.cli import main; raise SystemExit(main())"
 def processes(repetitions: int) -> dict[str, Any]:
     """Seconds of whole processes, and the ratios that count."""
     with tempfile.TemporaryDirectory() as folder:
+        deck = Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
         full, bare = Path(folder, "full.toml"), Path(folder, "bare.toml")
-        full.write_text(DECK + OUTPUT, encoding="utf-8")
-        bare.write_text(DECK + BARE, encoding="utf-8")
+        full.write_text(deck + OUTPUT, encoding="utf-8")
+        bare.write_text(deck + BARE, encoding="utf-8")
         fresh = dict(os.environ, HYDRO1D_CACHE_DIR=str(Path(folder, "cache")))
         result = str(Path(folder, "result.h5"))
         cold = _seconds(["-c", COMMAND, "run", str(full), "-o", result, "--quiet"], fresh)

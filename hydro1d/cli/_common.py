@@ -1,22 +1,12 @@
 """What several subcommands share."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from pathlib import Path
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-
-def path(text: str) -> Path:
-    """A file's name as a Path, imported only when one is given."""
-    from pathlib import Path
-
-    return Path(text)
+from hydro1d.errors import DeckError, FileProblem
 
 
 def one_of(words: Iterable[str]) -> Callable[[str], str]:
@@ -39,7 +29,6 @@ def refuse_result(target: Path) -> Path:
 
     Raises FileProblem.
     """
-    from hydro1d.errors import FileProblem
     from hydro1d.store.files import begins_as_hdf5
 
     try:
@@ -56,7 +45,6 @@ def refuse_other_kind(target: Path, table: bool) -> None:
 
     `target` has been through `check_target`: what is there is hydro1d's.
     """
-    from hydro1d.errors import FileProblem
     from hydro1d.store.seal import has_seal
 
     if not target.is_file():
@@ -76,7 +64,7 @@ def _content(path: Path) -> str:
 
 def add_deck(parser: argparse.ArgumentParser) -> None:
     """The deck and what overrides its values."""
-    parser.add_argument("deck", metavar="DECK", type=path, help="the deck, a TOML file")
+    parser.add_argument("deck", metavar="DECK", type=Path, help="the deck, a TOML file")
     parser.add_argument(
         "--set", metavar="PATH=VALUE", action="append", default=[], dest="overrides",
         help="put a value in place of the deck's, for example layer[0].zones=2000; can be repeated",
@@ -90,13 +78,19 @@ def positive(text: str) -> int:
     return int(text)
 
 
+def add_threads(parser: argparse.ArgumentParser, what: str = "runs") -> None:
+    """How much is done at a time."""
+    parser.add_argument(
+        "--threads", metavar="N", type=positive, help=f"{what} at a time; default: the processors there are"
+    )
+
+
 def quantity(text: str, unit: str, option: str) -> float:
     """A number, or a text with a unit, in the SI unit. Raises DeckError, naming the option."""
-    from hydro1d.components.units import convert, is_number
-    from hydro1d.errors import DeckError
+    from hydro1d.components.units import convert, plain
 
     try:
-        return convert(float(text) if is_number(text) else text, unit)
+        return convert(plain(text), unit)
     except ValueError as error:
         raise DeckError(f"{option}: {error}") from error
 

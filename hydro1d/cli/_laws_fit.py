@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hydro1d.cli import _common
+from hydro1d.errors import DeckError, FileProblem, file_problems
 
 if TYPE_CHECKING:
     from hydro1d.fit import Efficiency, Tabulated
@@ -55,14 +56,10 @@ def run(args: argparse.Namespace) -> None:
 
 def _written(found: Tabulated, source: Path, target: Path) -> list[str]:
     """Write the table; what to say of it. Raises FileProblem where it would destroy the measured curve or a result."""
-    from hydro1d.errors import FileProblem
-
     if target.exists() and target.samefile(source):
         raise FileProblem(f"cannot write {target}: it is the measured curve; choose another name")
-    try:
+    with file_problems("write", target):
         _common.refuse_result(target).write_text(found.csv())
-    except OSError as error:
-        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
     return [
         *(f"note: {text}" for text in found.notes),
         f"table: {target}, {len(found.points)} points behind an elastic line of {found.modulus / 1e6:.5g} MPa; "
@@ -83,7 +80,6 @@ def _efficiency(found: Efficiency) -> list[str]:
 def _unit(args: argparse.Namespace, column: str, wanted: str) -> str:
     """The unit given for a column, if it is one of the right kind."""
     from hydro1d.components.units import convert
-    from hydro1d.errors import DeckError
 
     text = str(getattr(args, f"{column}_unit"))
     try:
@@ -95,8 +91,6 @@ def _unit(args: argparse.Namespace, column: str, wanted: str) -> str:
 
 
 def _density(text: str | None) -> float | None:
-    from hydro1d.errors import DeckError
-
     value = None if text is None else _common.quantity(text, "kg/m^3", "--density")
     if value is not None and value <= 0.0:
         raise DeckError("--density must be above zero")

@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-if TYPE_CHECKING:
-    from pathlib import Path
+from hydro1d.errors import file_problems
 
+if TYPE_CHECKING:
     from hydro1d.deck import Deck
     from hydro1d.store import Run
 
@@ -24,17 +25,13 @@ class JsonLog:
 
     def __init__(self, target: Path) -> None:
         from hydro1d.cli._common import refuse_result
-        from hydro1d.errors import FileProblem
 
         self._began = self._last = time.monotonic()
         self.on_standard_output = str(target) == "-"
-        try:
-            if not self.on_standard_output:
-                refuse_result(target)
-            file = None if self.on_standard_output else open(target, "w", encoding="utf-8")  # noqa: SIM115
-        except OSError as error:
-            raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
-        self._stream: TextIO = sys.stdout if file is None else file
+        self._stream: TextIO = sys.stdout
+        if not self.on_standard_output:
+            with file_problems("write", target):
+                self._stream = open(refuse_result(target), "w", encoding="utf-8")  # noqa: SIM115
 
     def write(self, event: str, **values: Any) -> None:
         """One line, at once readable by whoever follows the file."""

@@ -49,12 +49,14 @@ def reading(deck: Deck) -> list[str]:
 
 def _end(boundary: Boundary, plain: dict[str, Any]) -> str:
     """A boundary in a line: its type, its pulse, and what numbers it is given."""
+    from hydro1d.components.fields import said_of
+
     words = [str(plain["type"]), *([str(plain["pulse"])] if "pulse" in plain else [])]
     for component in (getattr(boundary, "pulse", None), boundary):
         for name, field in type(component).model_fields.items() if component is not None else ():
-            value, extra = getattr(component, name), field.json_schema_extra
-            if isinstance(value, float) and isinstance(extra, dict) and "unit" in extra:
-                unit = "" if extra["unit"] == "1" else str(extra["unit"])
+            value, unit = getattr(component, name), said_of(field).get("unit")
+            if isinstance(value, float) and unit is not None:
+                unit = "" if unit == "1" else unit
                 words.append(f"{name.replace('_', ' ')} {_common.figure(value, unit)}")
             elif isinstance(value, bool) and value != field.default:
                 words.append(f"{name.replace('_', ' ')} = {str(value).lower()}")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydro1d.cli import _common
+from hydro1d.errors import DeckError
 
 if TYPE_CHECKING:
     from hydro1d.sweep import Critical
@@ -32,25 +33,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--spacing", choices=SPACINGS, type=spacing, default="linear", help=spread)
     add("--along", metavar="PATH", help="a second key: trace the boundary along it")
     add("--values", metavar="LIST", help='its values: "2 MPa, 3 MPa" or FIRST:LAST:COUNT')
-    add("--threads", metavar="N", type=int, help="points at a time; default: the processors there are")
+    _common.add_threads(parser, "points")
     add("-o", "--output", metavar="FILE.csv", type=Path, help="write every evaluation; with --along the boundary too")
     add("-q", "--quiet", action="store_true", help="no progress")
 
 
 def run(args: argparse.Namespace) -> None:
     """Search, print, write."""
-    from hydro1d.errors import DeckError
+    from hydro1d.components.units import plain
     from hydro1d.sweep.critical import boundary_table, critical, evaluations_table, trace
     from hydro1d.sweep.table import check_text_target
 
     if (args.along is None) != (args.values is None):
         raise DeckError("--along and --values go together")
-    if args.threads is not None and args.threads < 1:
-        raise DeckError(f"--threads {args.threads}: at least 1")
     boundary_file = args.output.with_suffix(".boundary.csv") if args.output else None
     for path in filter(None, (args.output, boundary_file)):
         check_text_target(path)
-    arguments = (args.deck, args.key, _value(args.low), _value(args.high), args.outcome)
+    arguments = (args.deck, args.key, plain(args.low), plain(args.high), args.outcome)
     options: dict[str, Any] = {name: getattr(args, name) for name in ("overrides", "tolerance", "scan", "spacing")}
     if args.along is None:
         from hydro1d.interrupt import interruptible
@@ -87,28 +86,21 @@ def _row(point: Critical) -> str:
     return f"{along:>16} {value:>16}  {note}".rstrip()
 
 
-def _value(text: str) -> Any:
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
 def _values(text: str) -> list[Any]:
     """``A, B, C`` or ``FIRST:LAST:COUNT``."""
-    from hydro1d.errors import DeckError
+    from hydro1d.components.units import plain
     from hydro1d.sweep.plan import Parameter
 
     parts = text.split(":")
     if len(parts) == 3 and parts[2].strip().isdecimal():
         from pydantic import ValidationError
 
-        first, last = (_value(part.strip()) for part in parts[:2])
+        first, last = (plain(part.strip()) for part in parts[:2])
         try:
             return Parameter(key="x", first=first, last=last, count=int(parts[2])).listed()
         except ValidationError as error:
             raise DeckError(f"--values {text}: {error.errors()[0]['msg'].removeprefix('Value error, ')}") from None
-    values = [_value(part.strip()) for part in text.split(",") if part.strip()]
+    values = [plain(part.strip()) for part in text.split(",") if part.strip()]
     if not values:
         raise DeckError("--values: there is none")
     return values

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from hydro1d.errors import DeckError
+
 if TYPE_CHECKING:
     from hydro1d.components.parameters import Component
 
@@ -27,8 +29,6 @@ def run(args: argparse.Namespace) -> None:
         _act(args.name, args.rest)
         return
     if args.rest:
-        from hydro1d.errors import DeckError
-
         raise DeckError(f"laws shows one thing at a time, not {args.rest[0][:80]!r} as well")
     print("\n".join(_overview() if args.name is None else _entry(args.name)))
 
@@ -86,7 +86,6 @@ def _classes(name: str) -> list[tuple[str, type[Component]]]:
 
     from hydro1d.components.plugins import available, find
     from hydro1d.deck.messages import suggestion
-    from hydro1d.errors import DeckError
 
     if ".py" in name:
         for kind in KINDS:

@@ -3,6 +3,8 @@
 import argparse
 from pathlib import Path
 
+from hydro1d.errors import DeckError, FileProblem, file_problems
+
 CASES = {
     "pulse": "a pressure pulse on a foam layer against a wall",
     "blast": "a blast on a steel plate over two foams",
@@ -24,8 +26,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Write the deck and what it needs beside it; never over a file that is there."""
-    from hydro1d.errors import DeckError, FileProblem
-
     if args.case is None:
         print(_listing() + "\n\nhydro1d new CASE writes CASE.toml.")
         return
@@ -42,10 +42,8 @@ def run(args: argparse.Namespace) -> None:
     if there:
         raise FileProblem(f"{', '.join(there)} is there already; choose another name with -o")
     for path, text in texts.items():
-        try:
+        with file_problems("write", path):
             path.write_text(text.replace("{name}", deck.stem), encoding="utf-8")
-        except OSError as error:
-            raise FileProblem(f"cannot write {path}: {error.strerror or error}") from error
     print("\n".join(map(str, texts)))
     print(f"next: hydro1d run {deck}")
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydro1d.cli import _common
+from hydro1d.errors import DeckError
 
 if TYPE_CHECKING:
     from hydro1d.store import Run
@@ -65,7 +66,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Draw one figure and say where it is."""
-    from hydro1d.errors import DeckError
     from hydro1d.store import open_run
 
     kinds = [word for word in args.words if word in KINDS]
@@ -84,7 +84,6 @@ def run(args: argparse.Namespace) -> None:
 
 def _hint_at_kind(word: str) -> None:
     from hydro1d.deck.messages import suggestion
-    from hydro1d.errors import DeckError
 
     if "." not in word and "/" not in word and not Path(word).exists():
         hint = suggestion(word, list(KINDS))
@@ -93,8 +92,6 @@ def _hint_at_kind(word: str) -> None:
 
 def _refuse_idle_options(kind: str, args: argparse.Namespace) -> None:
     """An option that this kind of figure would ignore is a misunderstanding."""
-    from hydro1d.errors import DeckError
-
     for option, kinds in TAKES.items():
         if getattr(args, option) and kind not in kinds:
             raise DeckError(f"{kind} takes no --{option}; it is for {', '.join(kinds)}")
@@ -144,8 +141,6 @@ def _target(kind: str, args: argparse.Namespace, runs: list[Run], ending: str) -
 
 
 def _one(values: list[Any], option: str, kind: str) -> Any:
-    from hydro1d.errors import DeckError
-
     if len(values) > 1:
         raise DeckError(f"{kind} takes one {option}, not {len(values)}")
     return values[0]

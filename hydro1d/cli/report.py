@@ -3,6 +3,8 @@
 import argparse
 from pathlib import Path
 
+from hydro1d.errors import DeckError
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d report``."""
@@ -13,7 +15,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Write the page and say where it is."""
-    from hydro1d.errors import DeckError
     from hydro1d.store import open_run
 
     target = args.output or Path(args.result.stem + ".html")

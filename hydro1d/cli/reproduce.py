@@ -3,6 +3,9 @@
 import argparse
 from pathlib import Path
 
+from hydro1d.cli import _common
+from hydro1d.errors import DeckError
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d reproduce``."""
@@ -13,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--only", metavar="FIGURE", action="append", default=[], help="one figure, for example 6; can be repeated"
     )
-    parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
+    _common.add_threads(parser)
     parser.add_argument("--scheduler", metavar="ADDRESS", help="search on the Dask cluster of this scheduler")
     parser.add_argument("-q", "--quiet", action="store_true", help="do not say what is being made")
 
@@ -22,15 +25,12 @@ def run(args: argparse.Namespace) -> None:
     """Make the figures and the page."""
     from hydro1d.cli.sweep import executor_at
     from hydro1d.deck.messages import one_of
-    from hydro1d.errors import DeckError
     from hydro1d.studies.harrigan2010.reproduce import PARTS, reproduce
 
     names = [name for name, _ in PARTS]
     unknown = [name for name in args.only if name not in names]
     if unknown:
         raise DeckError(f"--only {unknown[0]}: there is no such part; there are {one_of(names)}")
-    if args.threads is not None and args.threads < 1:
-        raise DeckError(f"--threads {args.threads}: at least 1")
 
     def say(text: str) -> None:
         if not args.quiet:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hydro1d.cli import _common
+from hydro1d.errors import Interrupted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from hydro1d.analysis.openings import Openings
     from hydro1d.analysis.transmission import Transmission
@@ -21,15 +22,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d run``."""
     _common.add_deck(parser)
     parser.add_argument(
-        "-o", "--output", metavar="FILE", type=_common.path, help="result; default: the deck's name with .h5, here"
+        "-o", "--output", metavar="FILE", type=Path, help="result; default: the deck's name with .h5, here"
     )
-    parser.add_argument("--restart", metavar="FILE", type=_common.path, help="go on from a checkpoint")
+    parser.add_argument("--restart", metavar="FILE", type=Path, help="go on from a checkpoint")
     parser.add_argument(
         "--force", action="store_true", help="restart although deck or law differ from the checkpoint's"
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
     parser.add_argument(
-        "--log-json", metavar="FILE", type=_common.path,
+        "--log-json", metavar="FILE", type=Path,
         help="write start, progress and result as JSON, one object a line; - is standard output",
     )  # fmt: skip
 
@@ -39,7 +40,7 @@ def run(args: argparse.Namespace) -> None:
     from hydro1d.deck import load_deck
 
     deck = load_deck(args.deck, args.overrides)
-    output = args.output or _common.path(args.deck.stem + ".h5")
+    output = args.output or Path(args.deck.stem + ".h5")
     from hydro1d.store import check_target
 
     check_target(output)
@@ -59,7 +60,6 @@ def run(args: argparse.Namespace) -> None:
 def _calculate(args: argparse.Namespace, deck: Deck, output: Path, told: Callable[[float], None] | None = None) -> Run:
     """Run the deck; `told` hears of progress as well as the terminal does."""
     from hydro1d.api import run as calculate
-    from hydro1d.errors import Interrupted
 
     with _common.progress_bar(args.quiet) as shown:
 

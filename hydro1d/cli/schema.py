@@ -1,13 +1,14 @@
 """``hydro1d schema``: the JSON schema of a deck, for editors."""
 
 import argparse
+from pathlib import Path
 
 from hydro1d.cli import _common
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Options of ``hydro1d schema``."""
-    parser.add_argument("-o", "--output", metavar="FILE", type=_common.path, help="write it to a file")
+    parser.add_argument("-o", "--output", metavar="FILE", type=Path, help="write it to a file")
 
 
 def run(args: argparse.Namespace) -> None:

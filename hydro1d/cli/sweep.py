@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hydro1d.cli import _common
+from hydro1d.errors import BreakdownError, DeckError, FileProblem
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -25,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="FILE", type=Path,
         help="table as HDF5, with a CSV file beside it; default: the sweep's name with .h5, here",
     )  # fmt: skip
-    parser.add_argument("--threads", metavar="N", type=int, help="runs at a time; default: the processors there are")
+    _common.add_threads(parser)
     parser.add_argument("--scheduler", metavar="ADDRESS", help="run on the Dask cluster of this scheduler")
     parser.add_argument("--fresh", action="store_true", help="begin anew, whatever an interrupted sweep has left")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress, no summary")
@@ -33,13 +34,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Check, run, write HDF5 and CSV; 3 if every run broke down."""
-    from hydro1d.errors import BreakdownError, DeckError
     from hydro1d.store import check_target
     from hydro1d.sweep import load_sweep, run_sweep
     from hydro1d.sweep.table import check_text_target
 
-    if args.threads is not None and args.threads < 1:
-        raise DeckError(f"--threads {args.threads}: at least 1")
     sweep = load_sweep(args.sweep)
     output = args.output or Path(args.sweep.stem + ".h5")
     if output.suffix == ".csv":
@@ -88,7 +86,6 @@ def executor_at(address: str | None) -> Iterator[Executor | None]:
     if address is None:
         yield None
         return
-    from hydro1d.errors import DeckError, FileProblem
 
     try:
         from distributed import Client

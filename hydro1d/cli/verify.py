@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from hydro1d.cli import _common
+from hydro1d.errors import DeckError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,13 +21,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument("--list", action="store_true", help="name the cases and leave")
     parser.add_argument("-q", "--quiet", action="store_true", help="print failures and the last line only")
-    parser.add_argument("--workers", metavar="N", type=int, help="threads; default: one a core")
+    parser.add_argument("--workers", metavar="N", type=_common.positive, help="threads; default: one a core")
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the suite; 1 if any row fails."""
     from hydro1d.deck.messages import suggestion
-    from hydro1d.errors import DeckError
     from hydro1d.verify.suite import chosen
 
     cases = chosen(args.only)
@@ -35,8 +35,6 @@ def run(args: argparse.Namespace) -> int:
         raise DeckError(f"no case is called {' or '.join(args.only)}{hint}; --list names them")
     for path in filter(None, (args.json, args.html, args.markdown)):
         _common.refuse_result(path)  # before anything is measured
-    if args.workers is not None and args.workers < 1:
-        raise DeckError(f"--workers must be at least 1, not {args.workers}")
     if args.list:
         print("\n".join(f"{case.name:36}{case.rows:5} rows  {case.title}" for case in cases))
         return 0

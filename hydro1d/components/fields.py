@@ -39,14 +39,18 @@ def to_si(cls: type[BaseModel], values: Any, context: Any = None) -> Any:
     return converted
 
 
+def said_of(field: FieldInfo) -> dict[str, Any]:
+    """What a field's declaration adds for us: its "unit", or the "units" of its columns and an "advice"; empty without."""
+    return field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
+
+
 def field_to_si(field: FieldInfo, value: Any, folder: Path) -> Any:
-    """Return one field's value in SI; the field's `json_schema_extra` gives its unit or the units of its columns."""
-    extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-    kinds = _kinds(field.annotation)
+    """Return one field's value in SI."""
+    extra, kinds = said_of(field), kinds_of(field.annotation)
     if (isinstance(value, str) and value in kinds) or (value is None and type(None) in kinds):
         return value
     if "units" in extra:
-        first, second = extra["units"]  # type: ignore
+        first, second = extra["units"]
         try:
             return read_table(value, (str(first), str(second)), folder)
         except OrderError as error:
@@ -68,14 +72,13 @@ def field_to_si(field: FieldInfo, value: Any, folder: Path) -> Any:
     return value
 
 
-def _kinds(annotation: Any) -> set[Any]:
-    """The plain types and the Literal texts inside an annotation such as ``float | Literal["rigid"]``."""
-    origin = get_origin(annotation)
-    if origin is Literal:
-        return set(get_args(annotation))
-    if origin is not None:
-        return {kind for part in get_args(annotation) for kind in _kinds(part)}
-    return {annotation} if isinstance(annotation, type) else set()
+def kinds_of(annotation: Any) -> list[Any]:
+    """The plain types and the Literal texts inside an annotation such as ``float | Literal["rigid"]``, in its order."""
+    if get_origin(annotation) is Literal:
+        return list(get_args(annotation))
+    if get_origin(annotation) is not None:
+        return [kind for part in get_args(annotation) for kind in kinds_of(part)]
+    return [annotation]
 
 
 def _all_errors(

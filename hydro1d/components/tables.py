@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hydro1d.components.unit_table import ATOMS
-from hydro1d.components.units import UnitError, convert, parse_unit, shorten
+from hydro1d.components.units import UnitError, convert, parse_unit, plain, shorten
 
 MAX_FILE_BYTES = 64 * 1024**2  # bytes
 MAX_ROWS = 1_000_000  # rows
@@ -88,7 +88,7 @@ def read_rows(
         place = f"{name}, line {number}"
         if len(cells) != 2:
             raise TableError(f"{place}: {len(cells)} columns where there must be 2")
-        texts = [f"{cell} {unit}" if unit else _number(cell) for cell, unit in zip(cells, given, strict=True)]
+        texts = [f"{cell} {unit}" if unit else plain(cell) for cell, unit in zip(cells, given, strict=True)]
         try:
             rows.append((place, _pair(texts, units, place)))
         except TableError as error:
@@ -124,13 +124,6 @@ def _dialect(lines: list[tuple[int, str]], name: str) -> list[tuple[int, list[st
 def _beyond_unit_one(cells: list[str]) -> list[str]:
     """The cells, without a lone "1", which in a row of units means a pure number."""
     return cells if all(_NUMERIC.match(cell) for cell in cells) else [cell for cell in cells if cell != "1"]
-
-
-def _number(cell: str) -> float | str:
-    try:
-        return float(cell)
-    except ValueError:
-        return cell
 
 
 def _cells(text: str, mark: str) -> list[str]:

@@ -185,10 +185,9 @@ def _suggest(name: str) -> str:
     return f"; did you mean {' or '.join(same)}?" if same else ""
 
 
-def is_number(text: str) -> bool:
-    """Whether a text is a plain number, without a unit."""
+def plain(text: str) -> float | str:
+    """The number that a text is; a text with a unit, or with anything else, as it stands."""
     try:
-        float(text)
+        return float(text)
     except ValueError:
-        return False
-    return True
+        return text

@@ -58,21 +58,12 @@ def _check_layers(layers: Sequence[Layer]) -> list[Finding]:
             found.append(Finding(("layer", index), "zones of no size", None, "a larger thickness or fewer zones"))
         if not any(layer.law is law for law in checked):
             checked.append(layer.law)
-            found += _check_law(_law_path(index, layer), layer.law)
+            try:  # once in plain Python, so that the first error a law's author meets is not a compiler's
+                check_law(layer.law)
+            except (Exception, SystemExit) as error:  # a user's code may raise anything
+                path = ("material", layer.material, "law") if layer.material else ("layer", index, "law")
+                found.append(Finding(path, _sentence(error)))
     return found
-
-
-def _law_path(index: int, layer: Layer) -> tuple[str | int, ...]:
-    return ("material", layer.material, "law") if layer.material else ("layer", index, "law")
-
-
-def _check_law(path: tuple[str | int, ...], law: Law) -> list[Finding]:
-    """Run the law once in plain Python, so that the first error its author meets is not a compiler's."""
-    try:
-        check_law(law)
-    except (Exception, SystemExit) as error:  # a user's code may raise anything
-        return [Finding(path, _sentence(error))]
-    return []
 
 
 def _sentence(error: BaseException) -> str:

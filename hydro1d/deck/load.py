@@ -48,7 +48,10 @@ def load_deck(
     path: Path | None = None
     text = ""
     if isinstance(source, Mapping):
-        data = _copied(source)
+        try:
+            data = copy.deepcopy(dict(source))
+        except RecursionError:
+            raise DeckError("the deck: tables and lists nested too deeply") from None
     else:
         if isinstance(source, str) and "\n" in source:
             text = source
@@ -69,13 +72,6 @@ def load_deck(
         return deck.model_copy(update={"notes": notes_on(deck, data, builder.folder)})
     except DeckProblems as error:  # checks of the whole, which know no text
         raise _located(path, error.findings, text, origins) from None
-
-
-def _copied(source: Mapping[str, Any]) -> dict[str, Any]:
-    try:
-        return copy.deepcopy(dict(source))
-    except RecursionError:
-        raise DeckError("the deck: tables and lists nested too deeply") from None
 
 
 def _located(path: Path | None, found: list[Finding], text: str, origins: dict[Location, str]) -> DeckError:
@@ -119,16 +115,11 @@ class _Builder:
             "output": self._section("output", Output),
             "checkpoint": self._section("checkpoint", Checkpoint) if "checkpoint" in self.data else None,
         }
-        self._cross_check(parts)
+        if self.found:  # else Deck does it
+            known = {finding.path for finding in self.found}
+            found = cross_problems(*(parts[name] for name in ("layers", "left", "right", "time", "output")))
+            self.found += [finding for finding in found if finding.path not in known]
         return parts
-
-    def _cross_check(self, parts: dict[str, Any]) -> None:
-        if not self.found:
-            return  # Deck does it
-        layers = parts["layers"]
-        known = {finding.path for finding in self.found}
-        found = cross_problems(layers, parts["left"], parts["right"], parts["time"], parts["output"])
-        self.found += [finding for finding in found if finding.path not in known]
 
     def _title(self) -> str:
         title = self.data.get("title", "")

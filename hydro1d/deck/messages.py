@@ -3,11 +3,12 @@
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
+from hydro1d.components.fields import kinds_of, said_of
 from hydro1d.components.units import describe, shorten
 from hydro1d.errors import DeckError, Problem
 
@@ -73,10 +74,9 @@ def one_of(names: list[str], most: int = 20) -> str:
 
 def allowed(field: FieldInfo) -> str:
     """Values that a field allows, as a phrase made of its unit, type and bounds."""
-    extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-    words = _words(field.annotation)
+    extra, words = said_of(field), kinds_of(field.annotation)
     if "units" in extra:
-        return f"a list of pairs ({', '.join(map(str, extra['units']))}), or the name of a CSV file"  # type: ignore
+        return f"a list of pairs ({', '.join(extra['units'])}), or the name of a CSV file"
     bounds = _bounds(field)
     if "unit" in extra or float in words:
         first = describe(str(extra.get("unit", "1")), bounds)
@@ -86,29 +86,17 @@ def allowed(field: FieldInfo) -> str:
     return " or ".join(part for part in (first, *(f'"{word}"' for word in words if isinstance(word, str))) if part)
 
 
-def _words(annotation: Any) -> list[Any]:
-    if get_origin(annotation) is Literal:
-        return list(get_args(annotation))
-    if get_origin(annotation) is not None:
-        return [word for part in get_args(annotation) for word in _words(part)]
-    return [annotation]
-
-
 def _bounds(field: FieldInfo) -> str:
     names = {"gt": "above", "ge": "at least", "lt": "below", "le": "at most"}
     found = [
-        f"{phrase} {_figure(getattr(part, key))}"
+        f"{phrase} {bound if isinstance(bound, int) else f'{bound:g}'}"
         for part in field.metadata
         for key, phrase in names.items()
-        if getattr(part, key, None) is not None
+        if (bound := getattr(part, key, None)) is not None
     ]
-    unit = "characters" if str in _words(field.annotation) else "values"
+    unit = "characters" if str in kinds_of(field.annotation) else "values"
     lengths = [f"of at most {part.max_length} {unit}" for part in field.metadata if hasattr(part, "max_length")]
     return " and ".join(found) or " ".join(lengths)
-
-
-def _figure(bound: Any) -> str:
-    return str(bound) if isinstance(bound, int) else f"{bound:g}"
 
 
 def findings_of(
@@ -121,7 +109,8 @@ def findings_of(
         owner, values, path = cls, raw, prefix
         while len(location) > 1 and (inner := _model(owner, location[0])) is not None:
             path, location = (*path, location[0]), location[1:]
-            owner, values = inner, _mapping(values.get(str(path[-1])))
+            own = values.get(str(path[-1]))
+            owner, values = inner, own if isinstance(own, Mapping) else {}
         finding = _finding(detail, owner, values, path, location)
         found.setdefault(finding.path, finding)
     return list(found.values())
@@ -131,10 +120,6 @@ def _model(owner: type[BaseModel], name: str | int) -> type[BaseModel] | None:
     field = owner.model_fields.get(str(name))
     inner = field.annotation if field is not None else None
     return inner if isinstance(inner, type) and issubclass(inner, BaseModel) else None
-
-
-def _mapping(value: Any) -> Mapping[str, Any]:
-    return value if isinstance(value, Mapping) else {}
 
 
 def _finding(detail: Any, cls: type[BaseModel], raw: Mapping[str, Any], prefix: Location, own: Location) -> Finding:
@@ -153,7 +138,7 @@ def _finding(detail: Any, cls: type[BaseModel], raw: Mapping[str, Any], prefix: 
     value = raw.get(str(own[0]))
     if index or kind in ("quantity", "value_error"):
         return Finding(path, text, value, allowed(field) if kind == "quantity" else "")
-    hint = suggestion(value, [word for word in _words(field.annotation) if isinstance(word, str)])
+    hint = suggestion(value, [word for word in kinds_of(field.annotation) if isinstance(word, str)])
     reason = "is out of range" if kind.startswith(("greater", "less")) else "is not possible"
     return Finding(path, f"{shorten(value)} {reason}{hint}", value, allowed(field))
 

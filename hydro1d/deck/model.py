@@ -1,6 +1,7 @@
 """A whole deck as one frozen model; values in SI."""
 
 import json
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
@@ -11,9 +12,10 @@ from hydro1d.boundaries.base import Boundary
 from hydro1d.components.parameters import Component
 from hydro1d.deck.checks import cross_problems
 from hydro1d.deck.messages import deck_error, findings_of
-from hydro1d.deck.names import plugin_name
 from hydro1d.deck.parts import MAX_LAYERS, MAX_TITLE, Checkpoint, Layer, Output, Time, plain_text
 from hydro1d.scheme.viscosity import Viscosity
+
+_PACKAGES = {"law": "hydro1d.laws", "boundary": "hydro1d.boundaries", "pulse": "hydro1d.loads"}
 
 
 class Deck(Component):
@@ -127,3 +129,12 @@ def _plain(component: Component, without: tuple[str, ...] = ()) -> dict[str, Any
     """The fields of a component as JSON holds them; None stands for "not given" and is left out."""
     values: Mapping[str, Any] = component.model_dump(mode="json", exclude=set(without), exclude_none=True)
     return dict(values)
+
+
+def plugin_name(kind: str, component: type[Component]) -> str:
+    """The deck's word for a built-in class ("epph-tangent"), else the file and class where it is defined."""
+    package, _, module = component.__module__.rpartition(".")
+    if package == _PACKAGES[kind]:
+        return module.replace("_", "-")
+    file = getattr(sys.modules.get(component.__module__), "__file__", None)
+    return f"{Path(file).name if file else component.__module__}:{component.__qualname__}"

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from hydro1d.components import tables
+from hydro1d.components.fields import said_of
 from hydro1d.deck.messages import Location, path_text
 from hydro1d.deck.model import Deck
 from hydro1d.laws.base import Law, answer_by_point
@@ -126,8 +127,7 @@ def _is_too_strong(law: Law) -> bool:
 
 def _units(cls: type[BaseModel]) -> dict[str, str]:
     """Unit of each field that has one."""
-    extras = {key: field.json_schema_extra for key, field in cls.model_fields.items()}
-    return {key: str(extra["unit"]) for key, extra in extras.items() if isinstance(extra, dict) and "unit" in extra}
+    return {key: str(said_of(field)["unit"]) for key, field in cls.model_fields.items() if "unit" in said_of(field)}
 
 
 def _numbers(path: Location, table: Mapping[str, Any], cls: type[BaseModel]) -> list[_Number]:
@@ -142,11 +142,9 @@ def _largest(path: Location, table: Mapping[str, Any], law: Law, folder: Path) -
     """The largest stress of each curve that a material is given without a unit."""
     found = []
     for key, field in type(law).model_fields.items():
-        extra = field.json_schema_extra
-        if isinstance(extra, dict) and "units" in extra and key in table:
-            units = tuple(map(str, extra["units"]))  # type: ignore[arg-type]
-            if not _has_unit(table[key], units, folder):
-                found.append(_Number((*path, key), max(pair[1] for pair in getattr(law, key)), units[1], "the end of"))
+        units = tuple(said_of(field).get("units", ()))
+        if units and key in table and not _has_unit(table[key], units, folder):
+            found.append(_Number((*path, key), max(pair[1] for pair in getattr(law, key)), units[1], "the end of"))
     return found
 
 

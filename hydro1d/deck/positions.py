@@ -48,12 +48,10 @@ class Positions:
         for length in range(len(path), 0, -1):
             place = self._places.get(path[:length])
             if place is not None:
-                return self._line_and_column(place.key if of_key or length < len(path) else place.value)
+                offset = place.key if of_key or length < len(path) else place.value
+                line = bisect.bisect_right(self._lines, offset)
+                return line, offset - self._lines[line - 1] + 1
         return None
-
-    def _line_and_column(self, offset: int) -> tuple[int, int]:
-        line = bisect.bisect_right(self._lines, offset)
-        return line, offset - self._lines[line - 1] + 1
 
 
 class _Scanner:

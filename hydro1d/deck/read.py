@@ -46,7 +46,8 @@ def parse(text: str, source: Path | str | None = None) -> dict[str, Any]:
         text.encode("utf-8")
     except UnicodeEncodeError:
         raise DeckError(f"{where}not text that UTF-8 can hold") from None
-    if _has_deep_key(text):
+    # tomllib takes time quadratic in the parts of a dotted key; this takes linear time to find such keys.
+    if "a." * DEEPEST_KEY in re.sub(r"[^.\n=\[\]{},]+", "a", text):
         raise DeckError(f"{where}a key of more than {DEEPEST_KEY} parts")
     try:
         return tomllib.loads(text)
@@ -80,9 +81,3 @@ def _slip(row: str) -> str:
     if match := _BARE_UNIT.match(row):
         return f'; a number with a unit stands in quotes, "{match[1]} {match[2]}"'
     return ""
-
-
-def _has_deep_key(text: str) -> bool:
-    """tomllib takes time quadratic in the parts of a dotted key; this takes linear time to find such keys."""
-    words = re.sub(r"[^.\n=\[\]{},]+", "a", text)
-    return "a." * DEEPEST_KEY in words

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from typing import Any
 
+from hydro1d.components.fields import said_of
 from hydro1d.components.parameters import Component
 from hydro1d.components.plugins import available
 from hydro1d.deck.messages import allowed
@@ -18,12 +19,13 @@ def deck_schema() -> dict[str, Any]:
     boundary = {"anyOf": [*_boundaries(), _from_file("type")]}
     layer = _object(Layer, without=("law", "material"), extra={"material": {"type": "string", "minLength": 1}})
     layer["required"] = ["material", *layer.get("required", [])]
+    laws = [_object(cls, extra={"law": {"const": name}}, required=("law",)) for name, cls in _classes("law").items()]
     sections: dict[str, Any] = {
         "title": {"type": "string", "maxLength": MAX_TITLE},
         "material": {
             "type": "object",
             "minProperties": 1,
-            "additionalProperties": {"anyOf": [*_named("law", "law"), _from_file("law")]},
+            "additionalProperties": {"anyOf": [*laws, _from_file("law")]},
         },
         "layer": {"type": "array", "minItems": 1, "items": layer},
         "left": {**boundary, "description": "the proximal end"},
@@ -52,10 +54,6 @@ def _classes(kind: str) -> dict[str, type[Component]]:
         except Exception:  # an entry point of someone else's
             continue
     return found
-
-
-def _named(kind: str, key: str) -> list[dict[str, Any]]:
-    return [_object(cls, extra={key: {"const": name}}, required=(key,)) for name, cls in _classes(kind).items()]
 
 
 def _boundaries() -> list[dict[str, Any]]:
@@ -103,7 +101,7 @@ def _object(
 
 
 def _property(cls: type[Component], name: str, field: Any) -> dict[str, Any]:
-    extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
+    extra = said_of(field)
     about = "; ".join(part for part in (field.description, allowed(field)) if part)
     if "units" in extra:
         pair = {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": ["number", "string"]}}

@@ -53,8 +53,6 @@ def read_measured(
         raise FileProblem(f"cannot read {source}: no such file")
     try:
         rows, given = read_rows(source.name, ("1", "Pa"), source.parent, (strain_unit, stress_unit))
-    except OSError as error:
-        raise FileProblem(f"cannot read {source}: {error.strerror or error}") from error
     except ValueError as error:
         raise DeckError(f"{error}") from error
     table = np.array([pair for _, pair in rows], dtype=float)

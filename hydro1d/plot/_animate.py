@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from hydro1d.errors import DeckError, FileProblem, Hydro1dError
-from hydro1d.plot._base import PALETTE, RunOrPath, as_run, heading, new_figure, profile_quantity, scaled, times_of
+from hydro1d.errors import DeckError, Hydro1dError, file_problems
+from hydro1d.plot._base import PALETTE, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, heading, profile_quantity, scaled, times_of
 from hydro1d.plot._frames import along, check_frame, length_label, length_scale
 from hydro1d.plot._profiles import QUANTITIES
 from hydro1d.plot._units import scale_for
@@ -41,10 +42,8 @@ def animate(
     check_frame(frame)
     stored = len(times_of(run, 2))
     chosen = sorted({round(k) for k in np.linspace(0, stored - 1, min(frames, stored))})
-    try:
+    with file_problems("write", target):
         _write(_Scene(run, quantities, frame), target, chosen, fps, dpi)
-    except OSError as error:
-        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
     return target
 
 

@@ -1,8 +1,7 @@
-"""What all figures share: how they look, where the data come from, how they are written."""
+"""What all figures share: how they look, how they are written."""
 
 import io
 import os
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hydro1d.deck.messages import suggestion
-from hydro1d.errors import DeckError, FileProblem
+from hydro1d.errors import DeckError, file_problems
 from hydro1d.plot._matplotlib import without_latex
-from hydro1d.plot._units import Scale, scale_for, words
-from hydro1d.store import Run, open_run
-
-RunOrPath = Run | str | os.PathLike[str]
 
 # Okabe & Ito's colours, told apart by colour-blind readers; black is for laws and theory.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8C6D31", "#000000")
@@ -96,83 +90,12 @@ def keep_in_view(axes: Axes, values: np.ndarray) -> None:
         axes.set_ylim(bottom - 0.06 * reach, top + 0.06 * reach)
 
 
-def as_run(run: RunOrPath) -> Run:
-    """The run itself, or the one in the file. Raises FileProblem."""
-    return run if isinstance(run, Run) else open_run(run)
-
-
-def name_of(run: Run) -> str:
-    """What to call a run in messages and legends."""
-    return str(run.path) if run.path is not None else run.title or "run"
-
-
-def heading(run: Run) -> str:
-    """Title of a run, with its status where that is not `complete`."""
-    return _plain((run.title or (run.path.stem if run.path else "")) + state_of(run))
-
-
-def state_of(run: Run) -> str:
-    """In brackets what a run is that is not complete; else nothing."""
-    return {"complete": "", "running": " (partial: not finished)"}.get(run.status, f" ({run.status})")
-
-
-def _plain(text: str) -> str:
-    """Text in which matplotlib sees no formula, cut to a line."""
-    text = text if len(text) <= 90 else text[:88] + "…"
-    return text.replace("$", r"\$")
-
-
-def times_of(run: Run, least: int = 1) -> np.ndarray:
-    """Times of the profiles, s. Raises FileProblem where there are fewer than `least`."""
-    time = run.time if "time" in run else np.empty(0)
-    if len(time) < least:
-        held = "no profile" if len(time) == 0 else f"only {len(time)} profile" + "s" * (len(time) > 1)
-        others = "; profiles and history can be drawn" if len(time) else ""
-        raise FileProblem(f"{name_of(run)} holds {held}; this figure needs {least} (status: {run.status}){others}")
-    return time
-
-
-def scaled(run: Run, path: str, values: Any = None) -> tuple[Scale, str]:
-    """Display unit and axis label of a quantity ("stress", "history/right_stress")."""
-    scale = scale_for(run.describe(path).units, run[path] if values is None else values)
-    return scale, scale.label(words(path.rpartition("/")[2]))
-
-
-def profile_quantity(run: Run, name: str) -> np.ndarray:
-    """Values (time, zone) or (time, node). Raises FileProblem for anything else, with what there is."""
-    if name in run:
-        values = run[name]
-        if run.describe(name).dimensions in (("time", "zone"), ("time", "node")):
-            return values
-    there = [key for key in run if run.describe(key).dimensions[:1] == ("time",) and key != "time"]
-    hint = "; the history has it" if name in run.history else suggestion(name, there)
-    raise FileProblem(f"{name_of(run)} has no profiles of {name[:80]!r}{hint}; it has {', '.join(there) or 'none'}")
-
-
-def nearest(time: np.ndarray, wanted: Sequence[float], name: str) -> list[int]:
-    """Indices of the profiles nearest to times (s). Raises FileProblem beyond the last."""
-    late = [value for value in wanted if not -1e-12 <= value <= time[-1] * (1 + 1e-6) + 1e-12]
-    if late:
-        scale = scale_for("s", time)
-        first, last, asked = (scale.show(float(value)) for value in (time[0], time[-1], late[0]))
-        raise FileProblem(f"{name} has profiles from {first} to {last}, not at {asked}")
-    return list(dict.fromkeys(int(np.argmin(np.abs(time - value))) for value in wanted))
-
-
-def interfaces(run: Run) -> np.ndarray:
-    """Numbers of the nodes between two layers."""
-    return np.array([layer.zones.start for layer in run.layers[1:]], dtype=int)
-
-
 def save(figure: Figure, path: str | os.PathLike[str], dpi: int = 150) -> Path:
     """Write PNG, SVG or PDF, by the name's ending. Raises DeckError for another ending, FileProblem for a bad place."""
     target = Path(path)
     if target.suffix.lower() not in FORMATS:
         raise DeckError(f"{target}: a figure's name ends in {', '.join(FORMATS)}")
     dates = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(target.suffix.lower())
-    try:
-        with matplotlib.rc_context({"svg.hashsalt": "hydro1d"}):
-            figure.savefig(target, dpi=dpi, metadata=dates)
-    except OSError as error:
-        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
+    with file_problems("write", target), matplotlib.rc_context({"svg.hashsalt": "hydro1d"}):
+        figure.savefig(target, dpi=dpi, metadata=dates)
     return target

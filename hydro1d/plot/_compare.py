@@ -7,19 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hydro1d.errors import DeckError
-from hydro1d.plot._base import (
-    PALETTE,
-    RunOrPath,
-    as_run,
-    keep_in_view,
-    legend,
-    name_of,
-    nearest,
-    new_figure,
-    profile_quantity,
-    state_of,
-    times_of,
-)
+from hydro1d.plot._base import PALETTE, keep_in_view, legend, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, name_of, nearest, profile_quantity, state_of, times_of
 from hydro1d.plot._frames import along
 from hydro1d.plot._histories import MAX_ROWS, _bulk, extremes
 from hydro1d.plot._units import scale_for, words

@@ -27,6 +27,11 @@ def length_label(run: Run, frame: str) -> str:
     return length_scale(run).label("Lagrangian coordinate X" if frame == "lagrangian" else "position x")
 
 
+def interfaces(run: Run) -> np.ndarray:
+    """Numbers of the nodes between two layers."""
+    return np.array([layer.zones.start for layer in run.layers[1:]], dtype=int)
+
+
 def along(run: Run, quantity: str, index: int, frame: str) -> np.ndarray:
     """Coordinates (m) of the values of a quantity at one profile."""
     nodes = run["node_coordinate"] if frame == "lagrangian" else run["position"][index]

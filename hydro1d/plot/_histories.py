@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from hydro1d.analysis.fronts import front_path
 from hydro1d.analysis.transmission import pulse_of
 from hydro1d.errors import FileProblem
-from hydro1d.plot._base import GREY, RunOrPath, as_run, heading, legend, name_of, new_figure
+from hydro1d.plot._base import GREY, legend, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, heading, name_of
 from hydro1d.plot._frames import FRONTS
 from hydro1d.plot._units import Scale, scale_for, words
 from hydro1d.store import Run

@@ -11,18 +11,8 @@ from matplotlib.figure import Figure
 
 from hydro1d.analysis.fronts import front_path
 from hydro1d.deck import Deck
-from hydro1d.plot._base import (
-    GREY,
-    PALETTE,
-    SEQUENTIAL,
-    RunOrPath,
-    as_run,
-    heading,
-    legend,
-    new_figure,
-    profile_quantity,
-    times_of,
-)
+from hydro1d.plot._base import GREY, PALETTE, SEQUENTIAL, legend, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, heading, profile_quantity, times_of
 from hydro1d.plot._materials import curve, deck_of, loads_by_strain, strain_grid
 from hydro1d.plot._units import Scale, scale_for
 from hydro1d.store import Run

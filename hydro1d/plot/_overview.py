@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from hydro1d.deck import Deck
 from hydro1d.errors import FileProblem
-from hydro1d.plot._base import GREY, RunOrPath, as_run, heading, legend, new_figure
+from hydro1d.plot._base import GREY, legend, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, heading
 from hydro1d.plot._frames import length_label
 from hydro1d.plot._histories import END_STRESSES, clock_of, draw_history
 from hydro1d.plot._hugoniot import draw_hugoniot

@@ -8,22 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hydro1d.plot._base import (
-    GREY,
-    SEQUENTIAL,
-    RunOrPath,
-    as_run,
-    heading,
-    interfaces,
-    keep_in_view,
-    name_of,
-    nearest,
-    new_figure,
-    profile_quantity,
-    scaled,
-    times_of,
-)
-from hydro1d.plot._frames import along, check_frame, length_label, length_scale
+from hydro1d.plot._base import GREY, SEQUENTIAL, keep_in_view, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, heading, name_of, nearest, profile_quantity, scaled, times_of
+from hydro1d.plot._frames import along, check_frame, interfaces, length_label, length_scale
 from hydro1d.plot._units import scale_for
 from hydro1d.store import Run
 

@@ -8,19 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
-from hydro1d.plot._base import (
-    DIVERGING,
-    SEQUENTIAL,
-    RunOrPath,
-    as_run,
-    heading,
-    interfaces,
-    new_figure,
-    profile_quantity,
-    scaled,
-    times_of,
-)
-from hydro1d.plot._frames import check_frame, fronts, length_label, length_scale
+from hydro1d.plot._base import DIVERGING, SEQUENTIAL, new_figure
+from hydro1d.plot._data import RunOrPath, as_run, heading, profile_quantity, scaled, times_of
+from hydro1d.plot._frames import check_frame, fronts, interfaces, length_label, length_scale
 from hydro1d.plot._units import scale_for
 from hydro1d.store import Run
 

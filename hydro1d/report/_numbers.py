@@ -9,7 +9,7 @@ from hydro1d.analysis.openings import find_openings
 from hydro1d.analysis.transmission import NOT_REACHED, Transmission, transmission_of
 from hydro1d.deck import Deck
 from hydro1d.errors import FileProblem
-from hydro1d.plot._base import name_of
+from hydro1d.plot._data import name_of
 from hydro1d.plot._units import scale_for
 from hydro1d.store import Run
 

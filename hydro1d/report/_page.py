@@ -13,8 +13,8 @@ from typing import Any
 
 from hydro1d import plot
 from hydro1d.deck import Deck
-from hydro1d.errors import FileProblem
-from hydro1d.plot._base import RunOrPath, as_run
+from hydro1d.errors import file_problems
+from hydro1d.plot._data import RunOrPath, as_run
 from hydro1d.plot._materials import deck_of
 from hydro1d.plot._units import scale_for
 from hydro1d.report._data import page_data, shown_rows, telling_row
@@ -29,10 +29,8 @@ _PICTURES = (("stress", "lagrangian"), ("strain", "lagrangian"), ("velocity", "l
 def write_report(run: RunOrPath, path: str | os.PathLike[str], deck: Deck | str | Path | None = None) -> Path:
     """Write the page about a run. deck: where laws of the user's own are taken from. Raises FileProblem."""
     text, target = report(run, deck), Path(path)
-    try:
+    with file_problems("write", target):
         target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FileProblem(f"cannot write {target}: {error.strerror or error}") from error
     return target
 
 

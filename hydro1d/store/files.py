@@ -7,6 +7,7 @@ import re
 import secrets
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Self
 
 from hydro1d.errors import FileProblem
 from hydro1d.store.seal import has_seal
@@ -65,7 +66,8 @@ def not_hdf5(path: Path, error: BaseException) -> str:
 class Temporary:
     """A file with a name of its own beside the target, locked while its writer lives.
 
-    `commit` syncs it and renames it to its final name, `discard` removes it. Both can be called again without effect.
+    `commit` syncs it and renames it to its final name, `discard` removes it, as leaving a `with` block does. Both can be
+    called again without effect.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -76,6 +78,12 @@ class Temporary:
             if os.fstat(self.fd).st_nlink:  # a clean-up may have come between open and lock
                 break
             os.close(self.fd)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.discard()
 
     def size(self) -> int:
         """Length of the file, bytes."""
@@ -94,10 +102,14 @@ class Temporary:
         if hasattr(os, "posix_fallocate"):
             os.posix_fallocate(self.fd, 0, self.size() + more)
 
-    def commit(self, target: Path) -> tuple[int, int]:
-        """Sync, rename to `target` and sync the folder; returns the identity of the file."""
+    def commit(self, target: Path, over_any: bool = False) -> tuple[int, int]:
+        """Sync, rename to `target` and sync the folder; returns the identity of the file.
+
+        Raises FileProblem where a file is that hydro1d did not write, unless the caller has seen to it (`over_any`).
+        """
         os.fsync(self.fd)
-        refuse_foreign(target)
+        if not over_any:
+            refuse_foreign(target)
         os.replace(self.path, target)
         status = os.fstat(self.fd)
         os.close(self.fd)

@@ -197,22 +197,11 @@ class Hdf5Sink(Recorder):
         with files.explained("write", target):
             files.refuse_foreign(target)
             working = self._append(last)
-            temporary = working if last else self._copy(working)
-            try:
+            with contextlib.nullcontext(working) if last else files.Temporary(self.path.parent) as temporary:
+                if not last:
+                    shutil.copyfile(working.path, temporary.path)
                 image.complete(temporary, self, {**attributes, "status": status}, state or {}, self._workers.pool)
                 return temporary.commit(target)
-            finally:
-                if temporary is not working:
-                    temporary.discard()
-
-    def _copy(self, working: files.Temporary) -> files.Temporary:
-        copy = files.Temporary(self.path.parent)
-        try:
-            shutil.copyfile(working.path, copy.path)
-        except BaseException:
-            copy.discard()
-            raise
-        return copy
 
     def _remove_partial(self) -> None:
         """Remove the partial file, unless another run that still goes on has put its own there."""

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from hydro1d.components.fields import said_of
 from hydro1d.components.parameters import Component
 from hydro1d.components.units import UnitError, convert, parse_unit
 from hydro1d.deck import Deck, load_deck
@@ -84,9 +85,9 @@ def unit_of(deck: Deck, key: str) -> str:
     *place, name = check_key(key).path
     for component in _components(deck, place):
         field = type(component).model_fields.get(str(name))
-        extra = field.json_schema_extra if field is not None else None
-        if isinstance(extra, dict) and "unit" in extra:
-            return "" if extra["unit"] == "1" else str(extra["unit"])
+        unit = said_of(field).get("unit") if field is not None else None
+        if unit is not None:
+            return "" if unit == "1" else str(unit)
     return ""
 
 

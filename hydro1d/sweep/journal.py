@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from hydro1d.errors import FileProblem
+from hydro1d.errors import FileProblem, file_problems
 
 _SYNC = 0.5  # seconds between syncs: a killed process loses nothing, a power cut this much
 
@@ -18,7 +18,7 @@ class Journal:
     def __init__(self, path: Path, digest: str, fresh: bool = False) -> None:
         """Open or begin. Raises FileProblem for the journal of another sweep, unless ``fresh`` throws it away."""
         self.path, self.rows = path, {}  # type: Path, dict[int, dict[str, Any]]
-        try:
+        with file_problems("write", path):
             if fresh:
                 path.unlink(missing_ok=True)
             kept = self._read(digest) if path.exists() else 0
@@ -28,8 +28,6 @@ class Journal:
             if kept == 0:
                 self._write({"digest": digest})
             os.fsync(self._fd)
-        except OSError as error:
-            raise FileProblem(f"cannot write {path}: {error.strerror or error}") from None
         self._synced = time.monotonic()
 
     def _read(self, digest: str) -> int:
@@ -57,21 +55,17 @@ class Journal:
 
     def add(self, run: int, row: dict[str, Any]) -> None:
         """Keep a row: in the system's hands at once, on the disk within half a second."""
-        try:
+        with file_problems("write", self.path):
             self._write({"run": run, "row": row})
             if time.monotonic() - self._synced > _SYNC:
                 os.fsync(self._fd)
                 self._synced = time.monotonic()
-        except OSError as error:
-            raise FileProblem(f"cannot write {self.path}: {error.strerror or error}") from None
         self.rows[run] = row
 
-    def close(self, remove: bool = False) -> None:
-        """Sync and close; ``remove`` it once the table stands."""
+    def close(self) -> None:
+        """Sync and close."""
         if self._fd >= 0:
             with contextlib.suppress(OSError):
                 os.fsync(self._fd)
             os.close(self._fd)
             self._fd = -1
-        if remove:
-            self.path.unlink(missing_ok=True)

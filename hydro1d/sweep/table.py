@@ -3,14 +3,13 @@
 import csv
 import io
 import math
-import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from hydro1d.errors import FileProblem
+from hydro1d.errors import FileProblem, file_problems
 
 SCHEMA_VERSION = 1
 _MARK = "run"
@@ -82,12 +81,9 @@ class Table:
                 for name, value in {**attributes, "content": "table", **self.attributes}.items():
                     file.attrs[name] = value
                 self._datasets(file)
-            temporary = Temporary(target.parent)
-            try:
+            with Temporary(target.parent) as temporary:
                 temporary.append(image.getbuffer())
                 temporary.commit(target)
-            finally:
-                temporary.discard()
         return target
 
     def _datasets(self, file: Any) -> None:
@@ -134,7 +130,7 @@ def read_table(path: str | Path) -> Table:
 
 def check_text_target(path: Path, mark: str = _MARK) -> None:
     """Raise FileProblem if a file that is not hydro1d's stands where a table is to go, or nothing can be written."""
-    try:
+    with file_problems("write", path):
         if path.is_dir():
             raise FileProblem(f"cannot write {path}: it is a folder")
         if path.exists():
@@ -146,8 +142,6 @@ def check_text_target(path: Path, mark: str = _MARK) -> None:
                 )
         elif not path.parent.is_dir():
             raise FileProblem(f"cannot write {path}: the folder {path.parent} does not exist")
-    except OSError as error:
-        raise FileProblem(f"cannot write {path}: {error.strerror or error}") from None
 
 
 def write_text(path: Path, text: str) -> Path:
@@ -155,14 +149,7 @@ def write_text(path: Path, text: str) -> Path:
     from hydro1d.store.files import Temporary, explained
 
     check_text_target(path)
-    with explained("write", path):
-        temporary = Temporary(path.resolve().parent)
-        try:
-            temporary.append(text.encode())
-            os.fsync(temporary.fd)
-            os.replace(temporary.path, path)
-            os.close(temporary.fd)
-            temporary.fd = -1
-        finally:
-            temporary.discard()
+    with explained("write", path), Temporary(path.resolve().parent) as temporary:
+        temporary.append(text.encode())
+        temporary.commit(path, over_any=True)
     return path

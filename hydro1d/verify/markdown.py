@@ -33,10 +33,8 @@ def _hardest_rows(reports: Sequence[Report]) -> str:
     for report in reports:
         row = hardest(report.rows)
         if row is not None:
-            cells = (text.short(row.error), text.order(row), text.limit(row.tolerance))
-            table.append(
-                f"| {report.case.title} | {len(report.rows)} | {_escaped(row.quantity)} | {' | '.join(cells)} |"
-            )
+            cells = (report.case.title, str(len(report.rows)), _escaped(row.quantity), *text.cells(row)[2:5])
+            table.append(f"| {' | '.join(cells)} |")
     return "\n".join(table)
 
 

@@ -49,7 +49,8 @@ def _overview(reports: Sequence[Report]) -> str:
         verdict = f'<td class="fail">{failed} FAILED</td>' if failed else '<td class="pass">pass</td>'
         cells = ("", "", "")
         if row is not None:
-            cells = (html.escape(row.quantity), text.short(row.error), text.limit(row.tolerance))
+            _, _, error, _, tolerance, _ = text.cells(row)
+            cells = (html.escape(row.quantity), error, tolerance)
         lines.append(
             f'<tr><td><a href="#{anchor(report)}">{html.escape(report.case.title)}</a></td>'
             f'<td class="n">{judged}</td>{verdict}<td>{cells[0]}</td><td class="n">{cells[1]}</td>'
@@ -93,11 +94,9 @@ def _rows_table(rows: Sequence[Row]) -> str:
 
 
 def _row(row: Row) -> str:
-    verdict, order = text.verdict(row), text.order(row)
+    *numbers, verdict = text.cells(row)
     if row.least_order is not None:
-        order += f" (≥ {row.least_order:g})"
-    found = (text.number(value) for value in (row.exact, row.measured))
-    numbers = (*found, text.short(row.error), order, text.limit(row.tolerance))
+        numbers[3] += f" (≥ {row.least_order:g})"
     cells = "".join(f'<td class="n">{cell}</td>' for cell in numbers)
     failed = "" if row.passed else ' class="failed"'
     return (

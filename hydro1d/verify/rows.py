@@ -1,9 +1,10 @@
-"""The rows of the verification table and the curves of its figures: what a case returns."""
+"""What a case of the suite is, and what it fills: rows of the verification table and curves of its figures."""
 
+import inspect
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -170,3 +171,35 @@ def line(x: ArrayLike, y: ArrayLike, label: str, style: Literal["exact", "run", 
 def failure(case: str, quantity: str, reason: str) -> Row:
     """A row that fails, for a case that did not run to its end."""
     return Row(case, quantity, math.nan, math.nan, math.nan, None, 0.0, False, None, reason)
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How fine the runs are: the default suite takes a minute, the full one adds finer resolutions."""
+
+    full: bool = False
+
+    def zones(self, coarsest: int, levels: int = 3) -> tuple[int, ...]:
+        """Numbers of zones, each twice the one before; the full suite adds one more doubling."""
+        return tuple(coarsest * 2**k for k in range(levels + self.full))
+
+
+@dataclass(frozen=True)
+class Case:
+    """One entry of the suite.
+
+    `study(table, effort)` runs the solver and fills the table with exactly `rows` rows; about: what is run and
+    compared, one paragraph, for the report.
+    """
+
+    name: str
+    title: str
+    about: str
+    rows: int
+    study: Callable[[Table, Effort], None]
+
+    @classmethod
+    def of(cls, name: str, title: str, rows: int, study: Callable[[Table, Effort], None]) -> Self:
+        """A case about which the docstring of its study says what there is to say."""
+        told = inspect.getdoc(getattr(study, "func", study)) or ""
+        return cls(name, title, " ".join(told.split()), rows, study)

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from hydro1d.threads import threads_here
-from hydro1d.verify.case import Case, Effort
-from hydro1d.verify.rows import Panel, Row, Table, failure
+from hydro1d.verify.rows import Case, Effort, Panel, Row, Table, failure
 
 # In the order of the report. A module that is missing here would be missed silently, hence the total below.
 MODULES = (

@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 
 from hydro1d.verify.rows import Row
-from hydro1d.verify.suite import Report
 
 WIDTHS = (32, 38, 14, 14, 9, 6, 9, 6)
 HEADER = ("case", "quantity", "exact", "measured", "error", "order", "tolerance", "")
@@ -15,25 +14,9 @@ def header() -> str:
     return _row(HEADER)
 
 
-def lines(report: Report) -> list[str]:
-    """The rows of one case."""
-    return [row_text(row) for row in report.rows]
-
-
 def row_text(row: Row) -> str:
     """One row; a failure says its reason below."""
-    text = _row(
-        (
-            row.case,
-            row.quantity,
-            number(row.exact),
-            number(row.measured),
-            short(row.error),
-            order(row),
-            limit(row.tolerance),
-            verdict(row),
-        )
-    )
+    text = _row((row.case, row.quantity, *cells(row)))
     return text if row.passed else f"{text}\n    {row.reason}"
 
 
@@ -44,29 +27,12 @@ def summary(rows: Sequence[Row], cases: int, seconds: float) -> str:
     return f"{cases} cases, {len(rows)} rows, {verdict}, {seconds:.1f} s"
 
 
-def verdict(row: Row) -> str:
-    """The last column: pass, FAIL, or shown for a row without a tolerance."""
-    return "FAIL" if not row.passed else "pass" if math.isfinite(row.tolerance) else "shown"
-
-
-def number(value: float) -> str:
-    """A value with seven digits, a dash for what is not finite."""
-    return f"{value:.7g}" if math.isfinite(value) else "–"
-
-
-def short(value: float) -> str:
-    """An error with two digits, a dash for what is not finite."""
-    return f"{value:.1e}" if math.isfinite(value) else "–"
-
-
-def limit(value: float) -> str:
-    """A tolerance, a dash where there is none."""
-    return f"{value:.2g}" if math.isfinite(value) else "–"
-
-
-def order(row: Row) -> str:
-    """The observed order, two digits; nothing where none was asked for."""
-    return "" if row.order is None else f"{row.order:.2f}"
+def cells(row: Row) -> tuple[str, ...]:
+    """Exact and measured value, error, order, tolerance and verdict; a dash for what is not finite, no order if none is asked."""
+    values = ((row.exact, ".7g"), (row.measured, ".7g"), (row.error, ".1e"), (row.tolerance, ".2g"))
+    exact, measured, error, tolerance = (format(value, form) if math.isfinite(value) else "–" for value, form in values)
+    verdict = "FAIL" if not row.passed else "pass" if math.isfinite(row.tolerance) else "shown"
+    return exact, measured, error, "" if row.order is None else f"{row.order:.2f}", tolerance, verdict
 
 
 def _row(cells: Sequence[str]) -> str:

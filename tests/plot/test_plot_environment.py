@@ -42,7 +42,7 @@ from hydro1d.studies.harrigan2010.workshop import QUICK, Workshop, columns, new_
 drawing, axes = new_figure()
 axes.plot([0, 1], [0, 1], label="σ, 1 %")
 axes.legend()
-Workshop(Path("."), QUICK).picture("fig1", "title", "caption", drawing, columns(a=[0.0, 1.0]))
+Workshop(Path("."), QUICK).picture("fig01", drawing, columns(a=[0.0, 1.0]))
 
 from hydro1d.verify.figures import svg
 from hydro1d.verify.rows import Line, Panel
@@ -82,5 +82,5 @@ def test_figures_are_drawn_whatever_is_asked_of_matplotlib(result, tmp_path, var
     )
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
-    made = [f"plot.{figure}", f"fit.{figure}", f"law.{figure}", "coarse-animate.gif", "report.html", "fig1.png"]
+    made = [f"plot.{figure}", f"fit.{figure}", f"law.{figure}", "coarse-animate.gif", "report.html", "fig01.png"]
     assert all((tmp_path / name).stat().st_size > 1000 for name in made)

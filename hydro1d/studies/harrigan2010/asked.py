@@ -95,8 +95,4 @@ def _draw(work: Workshop, table: Table) -> None:
     ax.axvline(1.0, color="black", lw=1.0, ls=":")
     ax.set(xlabel="critical duration over Eq. 30", xlim=(0.2, 2.1))
     figure.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=8)
-    caption = (
-        f"Ten masses at P = {PRESSURE / 1e6:g} MPa by an integrator that shares no code with the solver; each row changes one "
-        "thing. Reversible springs are never all past εD at once. The last row asks another question: how long must P be kept up?"
-    )
-    work.picture("new8_asked", "New: what is asked of a chain", caption, figure, table)
+    work.picture("new8_asked", figure, table, pressure=PRESSURE / 1e6)

@@ -59,14 +59,10 @@ def draw(work: Workshop, pressures: Sequence[float], shares: np.ndarray, found: 
     for label, color in shades.items():
         axes[1].plot([], [], "s", color=color, mec=GREY, label=label)
     figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=4, frameon=False)
-    caption = (
-        "Reversible springs, by an integrator that knows springs by their room. Half a mass at the loaded end scatters: above "
-        "6 MPa the outcome is no function of the duration that has one change. Equal masses swap velocities."
-    )
     data = {"T over Eq. 30": shares}
     for name, said in found.items():
         data |= {f"{name}, {p / 1e6:.3g} MPa": row.astype(float) for p, row in zip(pressures, said, strict=True)}
-    work.picture("new9_bands", "New: a boundary or a band?", caption, figure, columns(**data))
+    work.picture("new9_bands", figure, columns(**data))
     _numbers(work, pressures, shares, found)
     _solver_numbers(work)
 

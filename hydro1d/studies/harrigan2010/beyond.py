@@ -36,12 +36,7 @@ def support_histories(work: Workshop) -> None:
     ax.set_yscale("symlog", linthresh=1.0)
     ax.set_yticks([0, 0.5, 1, 2, 5, 10, 20], ["0", "0.5", "1", "2", "5", "10", "20"])
     ax.legend(frameon=False, fontsize=8)
-    caption = (
-        "E-P-P-H by Eq. 38, T = 1.53 ms. The plateau arrives at L/c0; only a front that gets through lifts "
-        "it. Above 1 the scale is logarithmic."
-    )
-    title = "New: stress history at the support for growing P"
-    work.picture("new1_support_stress", title, caption, figure, columns(**data))
+    work.picture("new1_support_stress", figure, columns(**data))
 
 
 def _stress_numbers(work: Workshop, run: Run, value: float, peak: float) -> None:
@@ -83,13 +78,9 @@ def peak_map(work: Workshop) -> None:
     bar = figure.colorbar(image, ax=axes, ticks=[-1, -0.5, 0, 0.5, 1])
     bar.ax.set_yticklabels(["≤ 0.1", "0.32", "1", "3.2", "≥ 10"])
     bar.set_label("peak support stress over P")
-    caption = (
-        "Black line: support stress = P; dashed: fully crushed; green: Eq. 30. Runs end when the column is fully crushed "
-        f"and the support has felt {TOP:g} P."
-    )
     named = {name: table["enhancement"] for name, table in tables.items()}
     data = columns(pressure__Pa=[p for p, _ in loads], duration__s=[t for _, t in loads], **named)
-    work.picture("new2_peak_map", "New: peak support stress over P", caption, figure, data)
+    work.picture("new2_peak_map", figure, data, most=TOP)
 
 
 def _peaks(work: Workshop, curve: Curve, loads: Sequence[tuple[float, float]]) -> Table:
@@ -152,12 +143,7 @@ def energy_shares(work: Workshop) -> None:
             work.number("new 3", f"{label}, {title}", "1", solver=float(share[-1]), note=note)
     axes[0].set_ylabel("share of the energy put in")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, frameon=False)
-    caption = (
-        f"P = 3.6 MPa, T = 1.53 ms, β = {foam.BETA}, γ = {foam.GAMMA}. Crushing is the area under the quasi-static "
-        "curve less what unloading gives back; the excess that a front absorbs, ½(σB + σA)[ε] less that "
-        "area, is its dissipation. Springs have none. White: given back to the load by a mass that bounced."
-    )
-    work.picture("new3_energy", "New: where the energy goes", caption, figure, columns(**data))
+    work.picture("new3_energy", figure, columns(**data))
 
 
 def _shares(run: Run, deck: Deck) -> tuple[np.ndarray, np.ndarray]:

@@ -154,14 +154,7 @@ def _draw_6(work: Workshop, table: Table) -> None:
     right.set(xlabel="T over Eq. 30", xlim=(0.3, 1.5))
     handles, labels = left.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=7)
-    caption = (
-        "1 m of Rohacell-51 WF. To the right of a line the column is fully crushed, or the support stress exceeds P. "
-        "E-P-P-H crushes fully sooner than Eq. 30 says, and enhances later at high pressure. Eq. 39 ends at 5.5 MPa. "
-        f"Plastic springs above {PLASTIC_TOP / 1e6:g} MPa only as rigid links, or with β = {HARD[0]:g}, γ = {HARD[1]:g}: with "
-        f"β = {foam.BETA}, γ = {foam.GAMMA} they lock so near to the pole of Eq. 38 that the steps become too short. "
-        "Reversible springs with half a mass at the loaded end, the solver's chain, have a band and no boundary above 6 MPa."
-    )
-    work.picture("fig06", "Fig. 6: enhancement/attenuation boundary", caption, figure, table)
+    work.picture("fig06", figure, table, highest=PLASTIC_TOP / 1e6, hard=HARD)
 
 
 def _draw_rigid(ax: Any, table: Table, scale: np.ndarray, stiffness: float) -> None:

@@ -29,9 +29,8 @@ def figure_1(work: Workshop) -> None:
     ax.plot(strains[-1], linear[-1], "o", color=RED, ms=4)
     ax.set(xlabel="strain", ylabel="stress (MPa)", ylim=(0, 8), xlim=(-0.01, 1.01))
     ax.legend(frameon=False)
-    caption = "Rohacell-51 WF. Eq. 39 ends at ε = 1 (5.5 MPa, dot); Eq. 38 hardens without bound."
     data = columns(strain=strains, eq39__MPa=linear, eq38__MPa=tangent, rppl_strain=rigid[0], rppl__MPa=rigid[1])
-    work.picture("fig01", "Fig. 1: quasi-static curves", caption, figure, data)
+    work.picture("fig01", figure, data)
     work.number("1", "yield strain", "1", paper=0.0364, equations=foam.LINEAR.yield_strain)
     work.number("1", "stress where Eq. 39 ends", "MPa", equations=float(foam.LINEAR.stress(1.0)) / MEGA)
 
@@ -87,9 +86,7 @@ def _draw(
         data[f"solver {key} {quantity}"] = points[:, column]
     ax.set(xlabel="[v] (m/s)", ylabel=label, xlim=(0, 260), ylim=(0.4, 1.0) if name == "fig08" else (0, 300))
     ax.legend(frameon=False)
-    caption = f"Lines: Eqs. 35 and 37 with Eq. 39, and with Eq. 38 for β = {foam.BETA}, γ = {foam.GAMMA}."
-    title = f"Fig. {int(name[3:])}: {label.split(' (')[0]} against [v]"
-    work.picture(name, title, caption, figure, columns(**data))
+    work.picture(name, figure, columns(**data))
 
 
 def _fit_numbers(work: Workshop, velocities: np.ndarray) -> None:

@@ -89,11 +89,7 @@ def _draw(work: Workshop, table: Table) -> None:
         ax.set(xlabel="T over Eq. 30", title=f"E-P-P-H, {name}", xlim=(0.74, 0.94), ylim=(0, 10.5))
         ax.legend(frameon=False, fontsize=8, loc="upper left")
     axes[0].set_ylabel("P (MPa)")
-    caption = (
-        "Critical duration for full crushing. Energy left against capacity left, the paper's argument, gives the "
-        "boundary that the solver finds with nearly rigid unloading, which the theory assumes."
-    )
-    work.picture("new6_energy_left", "New: kinetic energy left against capacity left", caption, figure, table)
+    work.picture("new6_energy_left", figure, table)
 
 
 def _numbers(work: Workshop, table: Table) -> None:

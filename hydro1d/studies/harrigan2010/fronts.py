@@ -35,11 +35,7 @@ def fronts(work: Workshop) -> None:
         ax.set(xlabel="t (ms)", title=f"P = {load / 1e6:g} MPa", xlim=(0, PUSHED * 1e3), ylim=(0, 0.5))
         ax.legend(frameon=False, fontsize=8)
     axes[0].set_ylabel("crushed length, undeformed (m)")
-    caption = (
-        "Eq. 38, while the pulse acts. Fronts of plastic springs keep nearly the pace of shock theory, those of "
-        "reversible springs run ahead; the stresses in both are those of single masses that collide."
-    )
-    work.picture("new7_fronts", "New: front speeds agree, stresses do not", caption, figure, columns(**data))
+    work.picture("new7_fronts", figure, columns(**data))
 
 
 def crushed_length(

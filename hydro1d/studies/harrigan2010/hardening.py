@@ -93,12 +93,8 @@ def _draw(
     ax.axvline(1.0, color="black", lw=2.0, label="Eq. 30")
     ax.set(xlabel="T over Eq. 30", ylabel="P (MPa)", xlim=(0.3, 1.7), ylim=(0, 10.5))
     figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=2, frameon=False, fontsize=8)
-    caption = (
-        "Credible: pairs that fit Eq. 39 to at most twice the least rms difference of strain. All: also "
-        + ", ".join(f"β = {beta:g}, γ = {gamma:g}" for beta, gamma in FAR)
-        + f", which do not. The continuum has {work.size.zones} zones. The enhanced boundary of the masses lies on the other."
-    )
-    work.picture("new10_hardening", "New: what β and γ could be", caption, figure, table)
+    pairs = ", ".join(f"β = {beta:g}, γ = {gamma:g}" for beta, gamma in FAR)
+    work.picture("new10_hardening", figure, table, pairs=pairs, zones=work.size.zones)
 
 
 def _numbers(

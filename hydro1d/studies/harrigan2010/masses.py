@@ -35,15 +35,9 @@ def _draw(work: Workshop, chain: Run, own: Trajectories, fine: Run) -> None:
     _trajectories(axes[2], fine.time, fine["position"][:, ::every], f"{work.size.fine_zones} zones, viscosity on")
     axes[0].set_ylabel("distance from the support over L")
     axes[2].legend(frameon=False, loc="lower left")
-    caption = (
-        f"p = 4.5, τd = 1, β = {foam.BETA}, γ = {foam.GAMMA}; as in the paper, 1 is the loaded end and 0 the support. "
-        "Left, middle: reversible springs on Eq. 38. Equal masses that collide swap velocities: the wave runs "
-        "through at nearly constant speed, and when the pulse is over the masses at the loaded end fly off. Right: "
-        "the same foam with its shocks resolved."
-    )
     places = {f"y{k}": 1.0 - chain["position"][:, k] / foam.LENGTH for k in range(11)}
     data = columns(tau=chain.time * foam.RATE, **places)
-    work.picture("fig12", "Fig. 12: ten masses, and the continuum", caption, figure, data)
+    work.picture("fig12", figure, data)
 
 
 def _trajectories(ax: Any, time: np.ndarray, position: np.ndarray, title: str) -> None:

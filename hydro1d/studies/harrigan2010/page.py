@@ -3,19 +3,11 @@
 import base64
 import html
 import math
+from pathlib import Path
 
 from hydro1d import __version__
 from hydro1d.studies.harrigan2010.workshop import Number, Picture, Workshop
 
-_STYLE = """
-body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}
-h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2.2em;border-top:1px solid #ddd;padding-top:.8em}
-nav a{display:inline-block;margin-right:1.2em}
-img{max-width:100%}table{border-collapse:collapse;font-size:13px;margin:.6em 0;width:100%}
-th,td{border-bottom:1px solid #e4e4e4;padding:.25em .6em;text-align:left;vertical-align:top}
-td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}th.n{text-align:right}
-.note{color:#666}p.caption{color:#444}
-"""
 _SOURCE = (
     "<p>Harrigan, Reid &amp; Seyed Yaghoubi, Int. J. Impact Engineering 37 (2010) 918–927, "
     "<a href='https://doi.org/10.1016/j.ijimpeng.2009.03.011'>doi:10.1016/j.ijimpeng.2009.03.011</a>. Each table puts "
@@ -32,7 +24,7 @@ def write_page(work: Workshop, seconds: float) -> None:
         "<!doctype html><html lang='en'><meta charset='utf-8'>",
         "<meta name='viewport' content='width=device-width'>",
         "<title>The correct analysis of shocks, reproduced</title>",
-        f"<style>{_STYLE}</style>",
+        f"<style>\n{Path(__file__).with_name('page.css').read_text(encoding='utf-8')}</style>",
         "<h1>The correct analysis of shocks in a cellular material, reproduced</h1>",
         _SOURCE,
         f"<p class='note'>{short}Made in {seconds:.0f} s by hydro1d {__version__}. All numbers: "
@@ -63,7 +55,8 @@ def _table(numbers: list[Number]) -> str:
     head += "<th class='n'>paper</th><th class='n'>equations</th><th class='n'>solver</th><th>unit</th>"
     rows = [f"<table>{head}<th class='n'>difference</th><th>note</th></tr>"]
     for item in numbers:
-        cells = "".join(f"<td class='n'>{_figure(x)}</td>" for x in (item.paper, item.equations, item.solver))
+        shown = ("" if math.isnan(x) else f"{x:.5g}" for x in (item.paper, item.equations, item.solver))
+        cells = "".join(f"<td class='n'>{number}</td>" for number in shown)
         change = "" if math.isnan(item.difference) else f"{100 * item.difference:+.3g} %"
         unit = html.escape(item.unit if item.unit != "1" else "")
         rows.append(
@@ -71,7 +64,3 @@ def _table(numbers: list[Number]) -> str:
             f"<td class='n'>{change}</td><td class='note'>{html.escape(item.note)}</td></tr>"
         )
     return "\n".join(rows) + "</table>"
-
-
-def _figure(value: float) -> str:
-    return "" if math.isnan(value) else f"{value:.5g}"

@@ -11,16 +11,8 @@ from scipy.integrate import solve_ivp
 
 from hydro1d import analytic
 from hydro1d.store import Run
-from hydro1d.studies.harrigan2010 import foam
+from hydro1d.studies.harrigan2010 import foam, measure
 from hydro1d.studies.harrigan2010.colors import BLUE, GREY, RED
-from hydro1d.studies.harrigan2010.measure import (
-    at_time,
-    crushed_at,
-    laboratory_path,
-    mean_during,
-    rest_time,
-    support_share,
-)
 from hydro1d.studies.harrigan2010.workshop import Workshop, columns, new_figure
 
 RIGIDITY = 20  # unloading modulus over E that stands for the rigid unloading of the theory
@@ -41,7 +33,7 @@ def figure_11a(work: Workshop) -> None:
 
 def _draw_11a(work: Workshop, theory: analytic.RPPLPulse, run: Run, stiffness: float) -> None:
     t = np.linspace(0.0, 8e-3, 161)
-    path, front, end = theory.history(t), laboratory_path(run, "front_position"), run["position"][:, 0]
+    path, front, end = theory.history(t), measure.laboratory_path(run, "front_position"), run["position"][:, 0]
     figure, ax = new_figure()
     _line(ax, t, path.front, BLUE, "front, Eqs. 2 and 7")
     _line(ax, t, path.displacement, RED, "proximal end, Eq. 7")
@@ -51,11 +43,7 @@ def _draw_11a(work: Workshop, theory: analytic.RPPLPulse, run: Run, stiffness: f
     _finish(ax)
     theoretical = {"t__s": t, "front__m": path.front, "proximal_end__m": path.displacement}
     data = columns(**theoretical, solver_t__s=run.time, solver_front__m=front, solver_proximal_end__m=end)
-    caption = (
-        f"R-P-P-L, P = 3.6 MPa, T = 1.53 ms. The solver's stiffness is {stiffness:g} σP: its elastic precursor carries "
-        "all along a little, and its far end is crushed a little from the wall. The numbers are extrapolated to rigid."
-    )
-    work.picture("fig11a", "Fig. 11a: R-P-P-L", caption, figure, data)
+    work.picture("fig11a", figure, data, stiffness=stiffness)
 
 
 def _line(ax: Any, t: np.ndarray, x: np.ndarray, color: str, label: str) -> None:
@@ -78,15 +66,15 @@ def _numbers_11a(work: Workshop, theory: analytic.RPPLPulse, runs: list[Run], st
         text = f"extrapolated to rigid; {pair[0]:.4g} at stiffness {stiffness:g} σP{note}"
         work.number("11a", quantity, unit, paper=paper, equations=exact, solver=2.0 * pair[0] - pair[1], note=text)
 
-    speeds = [mean_during(run, "left_velocity", *STEADY) for run in runs]
+    speeds = [measure.mean_during(run, "left_velocity", *STEADY) for run in runs]
     yields = foam.PLATEAU / math.sqrt(stiffness * foam.PLATEAU * foam.DENSITY)
     note = f", of which the precursor {yields:.2f} m/s"
     row("vI, velocity in stage 1 (Eq. 25)", "m/s", theory.pulse_velocity, speeds, note=note)
-    fronts = [at_time(run, "front_position", rest_time(run)) for run in runs]
+    fronts = [measure.at_time(run, "front_position", measure.rest_time(run)) for run in runs]
     row("lCR2, length crushed by the front (Eq. 29)", "m", theory.critical_length, fronts)
     left = [1.0 - front / foam.LENGTH for front in fronts]
     row("share never crushed", "1", 1.0 - theory.critical_length, left, paper=0.10, note="; paper: 'nearly 10 %'")
-    rest = [rest_time(run) * 1e3 for run in runs]
+    rest = [measure.rest_time(run) * 1e3 for run in runs]
     row("time of rest, T P/σP", "ms", theory.stop_time * 1e3, rest, paper=6.9)
     critical = foam.eq30(foam.PRESSURE) * 1e3
     work.number("11a", "TCR at P = 3.6 MPa (Eq. 30)", "ms", equations=critical, note="solver: Fig. 6")
@@ -115,7 +103,7 @@ def _draw_11b(work: Workshop, theory: analytic.CompactionPulse, run: Run, rigid:
     data |= {"proximal_end__m": path.displacement, "distal_front__m": distal, "solver_t__s": run.time}
     for result, mark, label in ((rigid, ".", f"H = {RIGIDITY} E"), (run, "+", "H = E")):
         for name, color in (("front_position", BLUE), ("distal_front_position", "black")):
-            front = np.where(_nearly_met(result), np.nan, laboratory_path(result, name))
+            front = np.where(_nearly_met(result), np.nan, measure.laboratory_path(result, name))
             _dots(ax, result.time, front, color, mark)
             data[f"solver {name.replace('_position', '')}, {label}__m"] = front
         end = result["position"][:, 0]
@@ -123,12 +111,7 @@ def _draw_11b(work: Workshop, theory: analytic.CompactionPulse, run: Run, rigid:
         data[f"solver proximal end, {label}__m"] = end
     ax.axvline(theory.end_time * 1e3, color=GREY, lw=0.8, ls=":", label="end of the theory")
     _finish(ax)
-    caption = (
-        "E-P-P-H by Eq. 39, P = 3.6 MPa, T = 1.53 ms. The theory unloads rigidly and ends (dotted) where its fronts "
-        "meet; the solver goes on. With H = E the crushed block springs back when the pulse is over. Fronts of the "
-        "solver end where they are too close to be told apart."
-    )
-    work.picture("fig11b", "Fig. 11b: E-P-P-H", caption, figure, columns(**data))
+    work.picture("fig11b", figure, columns(**data))
 
 
 def _nearly_met(run: Run) -> np.ndarray:
@@ -147,11 +130,11 @@ def _stage_1_numbers(work: Workshop, theory: analytic.CompactionPulse, run: Run)
     curve, zone, k = foam.LINEAR, run["zone_coordinate"], int(np.argmin(np.abs(run.time - STEADY[1])))
     centred = 0.5 * (run["velocity"][k][1:] + run["velocity"][k][:-1])
     carried = float(np.median(centred[(zone > 0.6) & (zone < 0.9)]))
-    jump = mean_during(run, "left_velocity", *STEADY) - carried
+    jump = measure.mean_during(run, "left_velocity", *STEADY) - carried
     x1 = foam.DURATION * (curve.yield_velocity + (1.0 - curve.yield_strain) * shock.front_speed)
-    at_end = float(np.interp(foam.DURATION, run.time, laboratory_path(run, "front_position")))
-    u1 = at_time(run, "left_position", foam.DURATION)
-    m1 = foam.DENSITY * at_time(run, "front_position", foam.DURATION)
+    at_end = float(np.interp(foam.DURATION, run.time, measure.laboratory_path(run, "front_position")))
+    u1 = measure.at_time(run, "left_position", foam.DURATION)
+    m1 = foam.DENSITY * measure.at_time(run, "front_position", foam.DURATION)
     exact_m1 = foam.DENSITY * foam.DURATION * shock.front_speed
     strain = float(np.median(run["strain"][k][zone < 0.25]))
     work.number("11b", "c0 (Eq. 40)", "m/s", equations=curve.elastic_speed)
@@ -179,11 +162,14 @@ def _absorbed_number(work: Workshop, strain: float, energy: float) -> None:
 def _end_numbers(work: Workshop, theory: analytic.CompactionPulse, run: Run, rigid: Run) -> None:
     """Stage 2 and after; the theory unloads rigidly, so the solver's column is that of nearly rigid unloading."""
     end, share = printed_variant()
-    stress = foam.PRESSURE * support_share_before(rigid, 0.9 * crushed_at(rigid)) / 1e6
+    stress = foam.PRESSURE * support_share_before(rigid, 0.9 * measure.crushed_at(rigid)) / 1e6
     behind, at = theory.distal_jump.behind.stress / 1e6, f"solver at H = {RIGIDITY} E"
     work.number("11b", "stress behind the distal front", "MPa", equations=behind, solver=stress, note=at)
-    ends = {"paper": 6.1, "equations": theory.end_time * 1e3, "solver": crushed_at(rigid) * 1e3}
-    note = f"solver: all crushed, H = {RIGIDITY} E; {crushed_at(run) * 1e3:.3f} ms at H = E, where the block springs back. "
+    ends = {"paper": 6.1, "equations": theory.end_time * 1e3, "solver": measure.crushed_at(rigid) * 1e3}
+    crushed = (
+        f"all crushed, H = {RIGIDITY} E; {measure.crushed_at(run) * 1e3:.3f} ms at H = E, where the block springs back"
+    )
+    note = f"solver: {crushed}. "
     note += f"6.1 ms comes out ({end * 1e3:.2f} ms) if stage 2 starts at v = [v] with m1 = A0 ρ0 cS T"
     work.number("11b", "end of the theory", "ms", **ends, note=note)
     left = float(rigid.history["uncrushed_fraction"][-1])
@@ -191,12 +177,12 @@ def _end_numbers(work: Workshop, theory: analytic.CompactionPulse, run: Run, rig
     work.number("11b", "share not crushed then", "1", paper=0.08, equations=0.0, solver=left, note=note)
     arrest, note = theory.arrest_time * 1e3, "after the fronts have met"
     work.number("11b", "v falls to VY, T P/σP (Eq. 45 integrated)", "ms", equations=arrest, note=note)
-    exact, left = float(theory.uncrushed_share(5e-3)), at_time(rigid, "uncrushed_fraction", 5e-3)
+    exact, left = float(theory.uncrushed_share(5e-3)), measure.at_time(rigid, "uncrushed_fraction", 5e-3)
     note = f"{at}, in which the fronts, some zones wide, have not yet crushed all of what they cover; "
-    note += f"{at_time(run, 'uncrushed_fraction', 5e-3):.4f} at H = E"
+    note += f"{measure.at_time(run, 'uncrushed_fraction', 5e-3):.4f} at H = E"
     work.number("11b", "share not crushed at 5.0 ms", "1", equations=exact, solver=left, note=note)
-    note = f"{at}; {support_share(run):.3f} at H = E: fully crushed, not enhanced"
-    work.number("11b", "peak support stress over P", "1", solver=support_share(rigid), note=note)
+    note = f"{at}; {measure.support_share(run):.3f} at H = E: fully crushed, not enhanced"
+    work.number("11b", "peak support stress over P", "1", solver=measure.support_share(rigid), note=note)
 
 
 def support_share_before(run: Run, time: float) -> float:

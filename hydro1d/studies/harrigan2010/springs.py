@@ -98,15 +98,7 @@ def _draw_5(work: Workshop, table: Table) -> None:
         duration, pressure = foam.eq30_line(2.0 * foam.PLATEAU, 5.0 * foam.PLATEAU)
         ax.plot(duration * foam.RATE, pressure / foam.PLATEAU, color=GREY, lw=1.6, ls="--", label="Eq. 30")
         ax.legend(frameon=False, fontsize=8)
-    caption = (
-        "Mass–spring chain on Eq. 38, viscosity off. Squares: every spring past εD; triangles: support stress above P. "
-        "Reversible springs lie in the paper's window (τd 0.25–1.75), and for ten masses both criteria nearly coincide, "
-        "as the paper says. The solver's chain has half a mass at its loaded end; black: equal masses. Plastic springs "
-        "lie far to the right of it. With more masses the support stress crosses P more than once as the pulse grows "
-        "longer; the lowest crossing that the scan met is shown, and none where it is above P all over the bracket. "
-        "Crosses: equal masses, the duration from which on every pulse crushes."
-    )
-    work.picture("fig05", "Fig. 5: mass–spring boundary", caption, figure, table)
+    work.picture("fig05", figure, table)
 
 
 def peaks_of_many_masses(work: Workshop) -> None:
@@ -124,12 +116,7 @@ def peaks_of_many_masses(work: Workshop) -> None:
     ax.set_yticks([0.2, 0.5, 1, 2, 5, 10], ["0.2", "0.5", "1", "2", "5", "≥ 10"])
     ax.minorticks_off()
     ax.legend(frameon=False)
-    caption = (
-        "Reversible springs, P = 2.4 MPa. Ten masses have one duration from which on the support feels more than P. Of "
-        "hundreds, single fast masses reach the support long before the column is crushed, and whether P is "
-        "exceeded changes from one duration to the next: no boundary."
-    )
-    work.picture("new5_many_masses", "New: many masses, is there a boundary?", caption, figure, table)
+    work.picture("new5_many_masses", figure, table)
 
 
 def _peaks(work: Workshop, masses: int, shares: np.ndarray) -> list[float]:

@@ -44,10 +44,9 @@ def _draw(work: Workshop, lengths: Table) -> None:
     ax.plot(speeds, limit, "x", color=RED, label="solver, extrapolated to rigid")
     ax.set(xlabel="v0 (m/s)", ylabel="critical length (m)", xlim=(0, 410), ylim=(0, 16.5))
     ax.legend(frameon=False)
-    caption = "G = 40 kg/m², σP = 0.3 MPa, εD = 0.67, ρ0 = 155 kg/m³. The solver knows nothing of either scheme and finds Eq. 13."
     solver = {f"solver {name}": lengths[name] for name in lengths}
     data = columns(v0__m_s=velocity, eq13__m=shock, eq19__m=energy, **solver)
-    work.picture("fig03", "Fig. 3: critical length against impact velocity", caption, figure, data)
+    work.picture("fig03", figure, data)
 
 
 def _critical_length(size: Size, speed: float, stiffness: float) -> float:

@@ -68,11 +68,7 @@ def studies(work: Workshop) -> None:
     figure, (left, right) = new_figure(13.5, 6.8, ncols=2)
     _draw(left, table, "E-P-P-H, Eq. 38, 3.6 MPa", "3.6 MPa", _continuum(work.size.zones))
     _draw(right, table, "mass–spring, 2.4 MPa", "2.4 MPa", _chains())
-    caption = (
-        "Critical duration over Eq. 30 when one thing is changed. Filled squares: fully crushed; open triangles: "
-        "enhanced. An observation that ends with the pulse asks another question: how long must P be kept up?"
-    )
-    work.picture("new4_studies", "New: how sure we are", caption, figure, table)
+    work.picture("new4_studies", figure, table)
 
 
 def _columns(work: Workshop) -> list[Column]:

@@ -5,6 +5,7 @@ import io
 import math
 import re
 import time
+import tomllib
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ from hydro1d.deck import load_deck
 from hydro1d.errors import FileProblem
 from hydro1d.plot import Picture as Drawing
 from hydro1d.store import Run
+from hydro1d.studies.harrigan2010 import foam
 from hydro1d.sweep import Column, Table, read_table
 from hydro1d.sweep.base import base_data
 from hydro1d.threads import threads_here
@@ -136,15 +138,17 @@ class Workshop:
         if not all(math.isnan(value) for value in (item.paper, item.equations, item.solver)):
             self.numbers.append(item)
 
-    def picture(self, name: str, title: str, caption: str, figure: Drawing, data: Table) -> None:
-        """Write NAME.png, NAME.svg and NAME.csv."""
+    def picture(self, name: str, figure: Drawing, data: Table, **values: Any) -> None:
+        """Write NAME.png, NAME.svg and NAME.csv; ``values`` are those that its caption in pictures.toml has in braces."""
         import matplotlib
 
         figure.savefig(self.folder / f"{name}.png", dpi=130)
         with matplotlib.rc_context({"svg.hashsalt": name}):
             figure.savefig(self.folder / f"{name}.svg", metadata={"Date": None})
         data.write_csv(self.folder / f"{name}.csv")
-        self.pictures.append(Picture(name, title, caption))
+        words = tomllib.loads(Path(__file__).with_name("pictures.toml").read_text(encoding="utf-8"))[name]
+        caption = words["caption"].format(beta=foam.BETA, gamma=foam.GAMMA, **values)
+        self.pictures.append(Picture(name, words["title"], caption))
 
     def write_numbers(self) -> None:
         """numbers.csv: figure, quantity, paper, equations, solver, then unit, difference and note."""

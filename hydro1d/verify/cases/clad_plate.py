@@ -9,11 +9,10 @@ from hydro1d.deck import Layer
 from hydro1d.laws.elastic import Elastic
 from hydro1d.loads.exponential import Exponential
 from hydro1d.loads.triangular import Triangular
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import DENSIFICATION, DENSITY, PLATEAU, rppl
 from hydro1d.verify.convergence import crossing
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 STEEL_DENSITY, STEEL_MODULUS, PLATE = 7800.0, 200e9, 2e-3  # a plate of 15.6 kg/m²
 PEAK = 8e6

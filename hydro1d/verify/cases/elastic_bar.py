@@ -12,9 +12,8 @@ from hydro1d.deck import Layer
 from hydro1d.laws.elastic import Elastic
 from hydro1d.loads.base import Pulse
 from hydro1d.loads.constant import Constant
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table
+from hydro1d.verify.rows import Case, Effort, Table
 
 NEAR, FAR = ElasticLayer(1000.0, 4e9, 0.5), ElasticLayer(4000.0, 4e9, 0.5)  # 2000 and 1000 m/s; impedances 2 and 4
 PEAK = 1e6

@@ -10,10 +10,9 @@ from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
 from hydro1d.laws.epph import EPPH
 from hydro1d.loads.rectangular import Rectangular
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import DENSITY, FOAM, MODULUS, SLOPE, epph
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 PRESSURE, DURATION, LENGTH = 3.6e6, 1.53e-3, 1.0
 MODULI = (1.5, 5.0, 20.0, 100.0)  # unloading, over E

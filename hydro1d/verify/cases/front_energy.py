@@ -11,12 +11,11 @@ from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.deck import Layer
 from hydro1d.loads.constant import Constant
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import PLATEAU, Material
 from hydro1d.verify.convergence import order
 from hydro1d.verify.measure import START_UP, Front, Recording, measure_front, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 LOAD = 4.5
 REASON = (

@@ -8,11 +8,10 @@ from hydro1d.analytic import compaction_hugoniot, piston
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.deck import Layer
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import Material
 from hydro1d.verify.measure import measure_front, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 JUMPS = (10.0, 25.0, 50.0, 75.0, 100.0, 150.0, 200.0, 250.0)
 REASON = "a point of the figures: two of a thousand is the width of their lines"

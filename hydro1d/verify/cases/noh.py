@@ -7,9 +7,8 @@ from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
 from hydro1d.laws.ideal_gas import IdealGas
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 END, PRESSURE = 0.6, 1e-9
 FROM, TO = 0.05, 0.35  # where the norm is taken: wall heating and far field left out

@@ -9,9 +9,8 @@ from hydro1d.analytic import Gas, RiemannProblem
 from hydro1d.boundaries.piston import Piston
 from hydro1d.deck import Layer
 from hydro1d.laws.ideal_gas import IdealGas
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 ZONES = (100, 200, 400, 800)
 SAMPLES = 200  # a zone, for the exact mean over it

@@ -8,11 +8,10 @@ from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
 from hydro1d.laws.rph import RPH
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import DENSITY, PLATEAU
 from hydro1d.verify.convergence import crossing
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 HARDENING, MASS, VELOCITY = 0.1e6, 20.0, 120.0
 MODULI = (0.4e9, 1.6e9, 6.4e9)

@@ -10,11 +10,10 @@ from hydro1d.boundaries.pressure import Pressure
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
 from hydro1d.loads.rectangular import Rectangular
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import DENSIFICATION, DENSITY, PLATEAU, rppl
 from hydro1d.verify.convergence import crossing
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 FOAM = RPPL(DENSITY, PLATEAU, DENSIFICATION)
 PRESSURE, DURATION, LENGTH = 3.6e6, 1.53e-3, 1.0

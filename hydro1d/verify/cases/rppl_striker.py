@@ -9,11 +9,10 @@ from hydro1d.analytic.rppl import energy_ratio
 from hydro1d.boundaries.striker import Striker
 from hydro1d.boundaries.wall import Wall
 from hydro1d.deck import Layer
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases.materials import rppl
 from hydro1d.verify.convergence import extrapolate
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 FOAM = RPPL(155.0, 0.3e6, 0.67)  # Fig. 3 of the paper
 MASS, VELOCITY = 40.0, 100.0

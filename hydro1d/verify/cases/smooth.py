@@ -10,9 +10,8 @@ from hydro1d.components.parameters import number, positive
 from hydro1d.deck import Layer
 from hydro1d.laws.ideal_gas import IdealGas
 from hydro1d.loads.base import Pulse
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table, line
+from hydro1d.verify.rows import Case, Effort, Table, line
 
 GAMMA, END, RISE, SPEED = 1.4, 0.7, 0.6, 0.15
 SECOND = (

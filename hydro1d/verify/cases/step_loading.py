@@ -15,12 +15,11 @@ from hydro1d.boundaries.transmitting import Transmitting
 from hydro1d.deck import Layer
 from hydro1d.loads.constant import Constant
 from hydro1d.solver.sink import Frame
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import PLATEAU, Material
 from hydro1d.verify.convergence import mean_over
 from hydro1d.verify.measure import Front, Recording, measure_front, simulate
-from hydro1d.verify.rows import Line, Table, line
+from hydro1d.verify.rows import Case, Effort, Line, Table, line
 
 VELOCITIES = (30.0, 80.0, 160.0, 300.0)
 CROSSED = 1.0 / 3.0  # share of the column that the front has crossed at the end: on a zone boundary at every resolution

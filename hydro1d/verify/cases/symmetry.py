@@ -14,11 +14,10 @@ from hydro1d.laws.elastic import Elastic
 from hydro1d.laws.epph import EPPH
 from hydro1d.laws.ideal_gas import IdealGas
 from hydro1d.loads.rectangular import Rectangular
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.cases import materials
 from hydro1d.verify.cases.materials import FOAM, MODULUS, SLOPE
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Line, Table, line
+from hydro1d.verify.rows import Case, Effort, Line, Table, line
 
 ROUND_OFF = "an identity of the scheme: round-off alone"
 LENGTH, MASS, TIME = 2.0**3, 2.0**-4, 2.0**5  # new units of length, mass (per area) and time; even powers and odd ones

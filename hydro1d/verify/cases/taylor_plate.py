@@ -8,10 +8,9 @@ from hydro1d.boundaries.striker import Striker
 from hydro1d.deck import Layer
 from hydro1d.laws.elastic import Elastic
 from hydro1d.loads.exponential import Exponential
-from hydro1d.verify.case import Case, Effort
 from hydro1d.verify.convergence import crossing
 from hydro1d.verify.measure import Recording, simulate
-from hydro1d.verify.rows import Table
+from hydro1d.verify.rows import Case, Effort, Table
 
 WATER = {"density": 1000.0, "modulus": 2.25e9}
 PEAK, DECAY, DEPTH = 10e6, 1e-4, 0.6
