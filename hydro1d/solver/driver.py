@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydro1d.boundaries.base import Boundary
+from hydro1d.boundaries.base import Boundary, End
 from hydro1d.errors import DeckError
 from hydro1d.scheme import profiles, step
 from hydro1d.scheme.records import CLOCK, COLLAPSED, INVERTED, LAYER_STATE, NOT_FINITE, PAUSED
@@ -27,6 +27,7 @@ BLOCK = step.CYCLE_BLOCK
 STOPS = 16  # after which a stretch ends: profiles can be compressed while the next is calculated
 MAX_VALUES = 1 << 23  # of the profiles of a stretch; in longer columns it ends at every stop
 RETRIES = 3
+A_STEP = 1e-9  # s, of a kick that is only tried
 EASE = 1.0 / 16.0  # of the stable step, the first one: what the loads will move is not moving yet
 
 
@@ -87,9 +88,19 @@ def initial_state(column: Column, program: Program) -> State:
 
 def _started(boundary: Boundary, velocity: float, mass: float, sign: float, side: str) -> tuple:
     try:
-        return boundary.start(velocity, mass, sign)
+        speed, kept = boundary.start(velocity, mass, sign)
     except ValueError as error:
         raise DeckError(f"{side}: {error}") from error
+    declared = len(boundary.state_variables)
+    end = End(0.0, A_STEP, A_STEP, speed, 0.0, mass, 0.0, 1.0, 0.0, sign)
+    # Compiled code stores as many as a kick returns: that they are those declared is seen before.
+    for method, values in (("start", kept), ("kick", boundary.kick(end, kept)[2] if len(kept) == declared else kept)):
+        if len(values) != declared:
+            raise DeckError(
+                f"{side}: {type(boundary).__name__}.{method} returns {len(values)} state variables; the class declares "
+                f"{declared}: {', '.join(boundary.state_variables) or 'none'}"
+            )
+    return speed, kept
 
 
 def _first_step(column: Column, program: Program, state: State) -> None:

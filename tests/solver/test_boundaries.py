@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 from columns import FOAM, Kept, layer, run, step
 
+from hydro1d.boundaries.base import Boundary
 from hydro1d.boundaries.free import Free
 from hydro1d.boundaries.piston import Piston
 from hydro1d.boundaries.pressure import Pressure
@@ -19,6 +22,9 @@ from hydro1d.loads.friedlander import Friedlander
 from hydro1d.loads.rectangular import Rectangular
 from hydro1d.loads.table import Table
 from hydro1d.loads.triangular import Triangular
+from hydro1d.solver.column import build_column
+from hydro1d.solver.driver import solve
+from hydro1d.solver.sink import Sink
 
 BAR = Elastic(density=1000.0, modulus=1e9)  # c = 1000 m/s, Z = 1e6 Pa s/m
 
@@ -118,3 +124,27 @@ def test_an_open_gap_that_closes_feels_nothing():
         time, stress = kept.column("time"), kept.column("left_stress")
         assert np.abs(stress[(time > 1e-4) & (time < 1.01e-3)]).max() < 1e3
         assert stress[-1] > 1e5
+
+
+def miscounting(started, kicked):
+    class Miscounting(Boundary):
+        """Declares one state variable and gives what it is told."""
+
+        state_variables: ClassVar[dict[str, str]] = {"gap": "m"}
+
+        def start(self, velocity, mass, side):
+            return velocity, started
+
+        def kick(self, end, state):
+            return end.velocity, 0.0, kicked
+
+    return Miscounting()
+
+
+@pytest.mark.parametrize("started, kicked, method", [
+    ((0.0, 0.0, 0.0), (0.0,), "start"), ((), (0.0,), "start"), ((0.0,), (0.0,) * 6, "kick"),
+])  # fmt: skip
+def test_a_boundary_that_keeps_more_or_less_than_it_declares(started, kicked, method):
+    column = build_column([layer(FOAM, 0.1, 10)], miscounting(started, kicked), Wall(), end=1e-4)
+    with pytest.raises(DeckError, match=rf"left: Miscounting\.{method} returns \d state variables; .* declares 1: gap"):
+        solve(column, Sink())
