@@ -1,6 +1,6 @@
 """A user's files with functions of one number, each reaching something in its own way; run as a script, it asks them all.
 
-python questions.py FOLDER NAME…    prints {name: answer, or what refuses it, or null}, notes, and whether numba was needed
+python questions.py FOLDER NAME…    prints {name: answer, or what refuses it, or null}, notes, and whether something was compiled
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import shutil
 import subprocess
@@ -10,8 +11,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+import questions
 
-from hydro1d.jit import cache
+from hydro1d.jit import build, cache
 
 ROOT = Path(__file__).parents[2]
 LAW = """
@@ -80,18 +82,14 @@ def test_only_the_user_may_read(filled: tuple[Path, Path, float]) -> None:
     assert all(path.suffix == ".o" for path in cache.iterdir())
 
 
-def test_an_edited_law_takes_effect(filled: tuple[Path, Path, float], tmp_path: Path) -> None:
-    _, cache, force = filled
+def test_an_edited_law_takes_effect_and_laws_of_one_name_do_not_mix(
+    filled: tuple[Path, Path, float], tmp_path: Path
+) -> None:
+    folder, cache, force = filled
     (tmp_path / "mine.py").write_text(LAW.format(slope=0.1))
     softer, compiled = run(tmp_path, cache)
     assert compiled
     assert softer < 0.9 * force
-
-
-def test_laws_of_one_name_do_not_mix(filled: tuple[Path, Path, float], tmp_path: Path) -> None:
-    folder, cache, force = filled
-    (tmp_path / "mine.py").write_text(LAW.format(slope=0.1))
-    softer, _ = run(tmp_path, cache)
     assert run(folder, cache) == (force, False)
     assert run(tmp_path, cache) == (softer, False)
 
@@ -103,21 +101,36 @@ def copied(cache: Path, to: Path) -> Path:
     return min(to.iterdir(), key=lambda path: path.stat().st_size)
 
 
-@pytest.mark.parametrize("damage", ["empty", "digest", "half", "bit"])
-def test_damaged_entries_are_compiled_again(damage: str, filled: tuple[Path, Path, float], tmp_path: Path) -> None:
+def damaged(damage: str, whole: bytes) -> bytes:
+    flipped = whole[:-1] + bytes([whole[-1] ^ 1])
+    return {"empty": b"", "digest": whole[:32], "half": whole[: len(whole) // 2], "bit": flipped}[damage]
+
+
+@pytest.mark.skipif(build.interpreted(), reason="without a compiler nothing is compiled")
+@pytest.mark.parametrize("damage", ["empty", "digest", "half", "bit", "others"])
+def test_damaged_entries_and_those_that_others_could_write_are_compiled_again(
+    damage: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if damage == "others" and not hasattr(os, "getuid"):
+        pytest.skip("POSIX permissions")
+    monkeypatch.setenv("HYDRO1D_CACHE_DIR", str(tmp_path))
+    compiled: list[str] = []
+    with build.announcing(compiled.append):
+        for count in (1, 2, 2):  # anew, for the damage, and then from the file
+            monkeypatch.setattr(build, "_addresses", {})
+            assert questions.answered(math.sqrt) == math.sqrt(questions.X)
+            assert len(compiled) == count
+            (entry,) = tmp_path.iterdir()
+            if count == 1 and damage == "others":
+                entry.chmod(0o666)
+            elif count == 1:
+                entry.write_bytes(damaged(damage, entry.read_bytes()))
+
+
+def test_a_damaged_entry_costs_another_process_time_alone(filled: tuple[Path, Path, float], tmp_path: Path) -> None:
     folder, cache, force = filled
     entry = copied(cache, tmp_path)
-    whole = entry.read_bytes()
-    flipped = whole[:-1] + bytes([whole[-1] ^ 1])
-    entry.write_bytes({"empty": b"", "digest": whole[:32], "half": whole[: len(whole) // 2], "bit": flipped}[damage])
-    assert run(folder, tmp_path) == (force, True)
-    assert run(folder, tmp_path) == (force, False)
-
-
-@pytest.mark.skipif(not hasattr(os, "getuid"), reason="POSIX permissions")
-def test_code_that_others_could_write_is_not_run(filled: tuple[Path, Path, float], tmp_path: Path) -> None:
-    folder, cache, force = filled
-    copied(cache, tmp_path).chmod(0o666)
+    entry.write_bytes(damaged("bit", entry.read_bytes()))
     assert run(folder, tmp_path) == (force, True)
     assert run(folder, tmp_path) == (force, False)
 

@@ -238,7 +238,7 @@ def test_texts_of_a_set_have_one_order_in_every_process(tmp_path):
     environment = dict(os.environ, PYTHONPATH=str(Path(__file__).parents[2]))
     runs = [
         subprocess.check_output([sys.executable, "-c", script], env={**environment, "PYTHONHASHSEED": seed})
-        for seed in "123"
+        for seed in "12"
     ]
     assert len(set(runs)) == 1
 
