@@ -11,6 +11,7 @@ import contextlib
 import enum
 import functools
 import hashlib
+import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from functools import _lru_cache_wrapper
@@ -23,8 +24,8 @@ import numpy as np
 from hydro1d.components.parameters import Component
 from hydro1d.errors import DeckError
 
-# Their versions stand for them.
-LIBRARIES = sys.stdlib_module_names | {"builtins", "numpy", "numba", "scipy", "pydantic"}
+_LIBRARIES = {"builtins", "numpy", "numba", "scipy", "pydantic"}  # and Python's own: their versions stand for them
+_PYTHON = os.path.dirname(os.__file__)
 # What a library knows by a name, and that keeps nothing: functions in Python and C, classes, functions of numpy.
 _NAMED = (FunctionType, BuiltinFunctionType, type, type(np.interp))
 _CONSTANTS = (bool, int, float, complex, str, bytes, range, slice, type(None), type(...))
@@ -69,7 +70,15 @@ def is_of_library(value: Any) -> bool:
         home = value.__module__
     elif type(value).__module__.startswith("numba.core.types"):
         home = "numba"
-    return isinstance(home, str) and home.split(".")[0] in LIBRARIES
+    return isinstance(home, str) and _is_library(home.split(".")[0])
+
+
+def _is_library(root: str) -> bool:
+    """Whether a module of this name is a library's: a file of the user's may be called ``profile.py``, as one of Python's is."""
+    if root not in sys.stdlib_module_names:
+        return root in _LIBRARIES
+    file = getattr(sys.modules.get(root), "__file__", None)
+    return file is None or file.startswith(_PYTHON)
 
 
 @functools.lru_cache(maxsize=4096)
@@ -100,6 +109,9 @@ class _Walk:
             self.parts.append(_array_text(value))
         elif isinstance(value, enum.Enum):
             self.parts.append(f"{_name(kind)} {value.name} {value.value!r}")
+        elif isinstance(value, Component):
+            self._once(kind, mentioned)
+            self.describe({name: getattr(value, name) for name in kind.model_fields})
         elif isinstance(value, frozenset | set):
             self._all(sorted(value, key=repr), kind)
         elif isinstance(value, tuple | list):
@@ -153,8 +165,12 @@ class _Walk:
         mentioned = names(code)
         for name, value in sorted(reached(function).items()):
             self.parts.append(name)
-            with _named(f"{name} in {function.__qualname__}"):
-                self.describe(value, mentioned)
+            try:
+                with _named(f"{name} in {function.__qualname__}"):
+                    self.describe(value, mentioned)
+            except (Unreachable, KeepsState):
+                if name in _loaded(code):  # and no attribute of that name was meant
+                    raise
         for name in sorted(mentioned & self._methods.keys()):
             for method in self._methods[name]:
                 self._once(method, mentioned)
@@ -199,6 +215,16 @@ def reached(function: FunctionType) -> dict[str, Any]:
     return found
 
 
+def _loaded(code: CodeType) -> set[str]:
+    """Names that code loads from outside itself."""
+    import dis
+
+    loads = ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
+    found = {str(step.argval) for step in dis.get_instructions(code) if step.opname in loads}
+    inner = [_loaded(constant) for constant in code.co_consts if isinstance(constant, CodeType)]
+    return found.union(code.co_freevars, *inner)
+
+
 @functools.lru_cache(maxsize=4096)
 def _text(code: CodeType) -> tuple[str, ...]:
     """What the code itself depends on. Raises KeepsState where it writes a global, Unreachable where it imports somebody's."""
@@ -206,8 +232,9 @@ def _text(code: CodeType) -> tuple[str, ...]:
     if instructions & _WRITES:
         name, line = _operand(code, _WRITES)
         raise KeepsState(code, name, line)
-    if instructions & _IMPORTS and _operand(code, _IMPORTS)[0].split(".")[0] not in LIBRARIES | {"hydro1d"}:
-        raise Unreachable(f"an import called {_operand(code, _IMPORTS)[0]} in {code.co_qualname}")
+    imported = _operand(code, _IMPORTS)[0] if instructions & _IMPORTS else "hydro1d"
+    if imported.split(".")[0] != "hydro1d" and not _is_library(imported.split(".")[0]):
+        raise Unreachable(f"an import called {imported} in {code.co_qualname}")
     shape = (code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags, code.co_varnames)
     outer = (code.co_names, code.co_freevars, code.co_cellvars, code.co_exceptiontable)
     parts = [code.co_qualname, code.co_code.hex(), repr(shape), repr(outer)]

@@ -18,6 +18,7 @@ import pytest
 import questions
 
 from hydro1d.jit import build, cache, reach
+from hydro1d.laws.elastic import Elastic
 
 compiles = pytest.mark.skipif(build.interpreted(), reason="without a compiler nothing is compiled")
 pytestmark = compiles
@@ -210,6 +211,38 @@ def test_different_things_have_different_digests(value, other):
 def test_what_has_no_lasting_text_is_named(value, says):
     with pytest.raises(reach.Unreachable, match=re.escape(says)):
         reach.digest(value)
+
+
+def test_an_attribute_that_is_called_like_a_global_is_not_the_global():
+    scope = {"math": math, "log": object()}
+    assert reach.digest(function_in(scope, "def f(x): return math.log(x)"))
+    with pytest.raises(reach.Unreachable, match="called log in f"):
+        reach.digest(function_in(scope, "def f(x): return math.log(log)"))
+    scope["log"] = function_in({}, "def f():\n global kept\n kept = 1")
+    assert reach.digest(function_in(scope, "def f(x): return math.log(x)"))
+    with pytest.raises(reach.KeepsState, match="writes the global kept"):
+        reach.digest(function_in(scope, "def f(x): return (lambda: log())()"))
+
+
+def test_a_module_called_like_one_of_pythons_is_the_users(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "this", raising=False)
+    (tmp_path / "this.py").write_text("def line(x):\n    return x\n")
+    import this
+
+    before = reach.digest(this.line)
+    assert not reach.is_of_library(this) and reach.is_of_library(math) and reach.is_of_library(re.compile)
+    this.line.__defaults__ = (1.0,)
+    assert reach.digest(this.line) != before
+    monkeypatch.delitem(sys.modules, "this")
+
+
+def test_a_component_is_its_class_and_its_values():
+    laws = [Elastic(density=1.0, modulus=modulus) for modulus in (1.0, 2.0, 1.0)]
+    said = [reach.digest(function_in({"law": law}, "def f(x): return law.density")) for law in laws]
+    assert said[0] == said[2] != said[1]
+    assert laws[0].initial_energy == 0.0  # computed once and kept, which is no difference
+    assert reach.digest(function_in({"law": laws[0]}, "def f(x): return law.density")) == said[0]
 
 
 def test_modules_that_hold_each_other_are_followed_to_their_end():
