@@ -89,6 +89,9 @@ def names(code: CodeType) -> frozenset[str]:
     return frozenset(code.co_names).union(code.co_freevars, texts, *inner)
 
 
+_PYDANTICS = ("__", "_abc_", "model_")  # names of a component's class that are not its author's
+
+
 class _Walk:
     """A walk through what is reached; `parts` describes it in an order that is the same in every process."""
 
@@ -188,7 +191,7 @@ class _Walk:
                 if base is Component or is_of_library(base):
                     continue
                 for name, item in sorted(vars(base).items()):
-                    if not name.startswith(("__", "_abc_")) and name != "model_config":
+                    if not name.startswith(_PYDANTICS if issubclass(base, Component) else "__"):
                         self.parts.append(name)
                         with _named(f"{name} in {base.__qualname__}"):
                             self.describe(_function_of(item))
