@@ -89,7 +89,7 @@ def names(code: CodeType) -> frozenset[str]:
     return frozenset(code.co_names).union(code.co_freevars, texts, *inner)
 
 
-_PYDANTICS = ("__", "_abc_", "model_")  # names of a component's class that are not its author's
+_MADE = ("__", "_abc_")  # names of a class that are not its author's; of a component's, pydantic makes more
 
 
 class _Walk:
@@ -191,7 +191,7 @@ class _Walk:
                 if base is Component or is_of_library(base):
                     continue
                 for name, item in sorted(vars(base).items()):
-                    if not name.startswith(_PYDANTICS if issubclass(base, Component) else "__"):
+                    if not name.startswith(_MADE + ("model_",) * issubclass(base, Component)):
                         self.parts.append(name)
                         with _named(f"{name} in {base.__qualname__}"):
                             self.describe(_function_of(item))
