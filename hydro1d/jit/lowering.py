@@ -186,6 +186,17 @@ def _as_overload(method: FunctionType) -> Callable:
     return choose
 
 
+def reader(record: types.Type, members: dict[str, Any], where: Callable) -> Callable:
+    """A function (shared, number, place) that reads the record at the start and the row that ``where`` answers with."""
+    unpack = unpacker(record, members)
+
+    def read(shared: Any, number: int, place: int) -> Any:
+        start, row = where(shared, number, place)
+        return unpack(shared.parameters, start, row)
+
+    return read
+
+
 def unpacker(record: types.Type, members: dict[str, Any]) -> Callable:
     """An intrinsic (parameters, start, place) that builds the record from the block that begins at byte ``start``.
 

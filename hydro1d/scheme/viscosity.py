@@ -6,9 +6,8 @@ from typing import Any, Literal
 
 from hydro1d.components.parameters import Component, not_negative
 
-FASTEST_COMPRESSION = (
-    2.0  # a step closes at most a quarter of a zone's strain to lock-up, also where there is no viscosity
-)
+# A step closes at most a quarter of a zone's strain to lock-up, also where there is no viscosity.
+FASTEST_COMPRESSION = 2.0
 
 
 class Viscosity(Component):

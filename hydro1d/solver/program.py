@@ -238,14 +238,17 @@ def _write_back(grid: Grid, values: dict[str, Any]) -> None:
 class _Maker:
     """How the pass of a component is made: as plain Python, or as machine code."""
 
-    def __init__(self, factory: Callable, kind: type[Component], members: dict[str, Any], arguments: tuple) -> None:
-        self.factory, self.kind, self.members, self.arguments = factory, kind, members, arguments
+    def __init__(
+        self, factory: Callable, where: Callable, kind: type[Component], members: dict[str, Any], *arguments: Any
+    ):
+        """``where`` answers (grid, number, zone) with the place of the component's parameters, and that within its rows."""
+        self.factory, self.where, self.kind, self.members, self.arguments = factory, where, kind, members, arguments
 
     def plain(self, components: Sequence[Component]) -> Callable:
         """The pass as Python on the components themselves."""
         if len(components) == 1:
             return self.factory(lambda g, number, i: components[0], *self.arguments)
-        return self.factory(lambda g, number, i: components[i - g.layers[number].first], *self.arguments)
+        return self.factory(lambda g, number, i: components[self.where(g, number, i)[1]], *self.arguments)
 
     def address(self) -> int:
         """The address of the pass as machine code. Raises DeckError for code of a user's that cannot be compiled."""
@@ -261,23 +264,22 @@ class _Maker:
         for kind in records.kinds(self.kind, self.members):
             for key, method in records.methods(kind).items():
                 methods.setdefault(key, []).append(method)
-        return f"{_shape(self.members)} {self.arguments} {reach.digest(self.factory, methods=methods)}"
+        return f"{_shape(self.members)} {self.arguments} {reach.digest(self.factory, self.where, methods=methods)}"
 
     def _make(self, copies: Any) -> Any:
         from hydro1d.jit import lowering
 
-        unpack = lowering.unpacker(lowering.record_type(self.kind, self.members, copies), self.members)
-        if self.factory is ends.end_pass:
+        record = lowering.record_type(self.kind, self.members, copies)
+        return self.factory(lowering.reader(record, self.members, self.where), *self.arguments)
 
-            def component_at(g: Any, number: int, i: int) -> Any:
-                return unpack(g.parameters, at(g.ends, number).parameters, i)
-        else:
 
-            def component_at(g: Any, number: int, i: int) -> Any:
-                layer = at(g.layers, number)
-                return unpack(g.parameters, layer.parameters, i - layer.first)
+def _in_layer(g: Grid, number: int, i: int) -> tuple[int, int]:
+    layer = at(g.layers, number)
+    return layer.parameters, i - layer.first
 
-        return self.factory(component_at, *self.arguments)
+
+def _at_end(g: Grid, number: int, i: int) -> tuple[int, int]:
+    return at(g.ends, number).parameters, i
 
 
 def _zones(block: LayerBlock, members: dict[str, Any]) -> _Maker:
@@ -286,11 +288,11 @@ def _zones(block: LayerBlock, members: dict[str, Any]) -> _Maker:
     factory = foam_pass.foam_pass if law.keeps_its_curve else zone_pass.zone_pass
     count = len(type(law).state_variables) * (0.0,)
     kind = zone_pass.Kind(not records.varies(members), block.is_uniform)
-    return _Maker(factory, type(law), members, (kind, 0 if keeps else 1, count))
+    return _Maker(factory, _in_layer, type(law), members, kind, 0 if keeps else 1, count)
 
 
 def _end(boundary: Boundary, members: dict[str, Any]) -> _Maker:
-    return _Maker(ends.end_pass, type(boundary), members, (len(type(boundary).state_variables) * (0.0,),))
+    return _Maker(ends.end_pass, _at_end, type(boundary), members, len(type(boundary).state_variables) * (0.0,))
 
 
 def _shape(members: dict[str, Any]) -> str:

@@ -255,9 +255,9 @@ def test_a_boundary_and_a_pulse_answer_as_they_did(classes):
 def test_a_run_gives_what_it_gave(run):
     assert run.status == "complete"
     for name, value in HISTORY_OF_0_1.items():
-        assert run.history[name][-1] == pytest.approx(value, rel=5e-3), name
+        assert run.history[name][-1] == pytest.approx(value, rel=1e-9), name
     for name, value in PROFILE_OF_0_1.items():
-        assert np.nanmean(run[name][-1]) == pytest.approx(value, rel=5e-3), name
+        assert np.nanmean(run[name][-1]) == pytest.approx(value, rel=1e-9), name
     assert np.isnan(run["damage"][:, 40:]).all()  # the foam has none
     assert np.abs(run.history["energy_error"]).max() < 1e-12
 
